@@ -1,0 +1,195 @@
+//! Builds a pack: quantises the images, makes their mips, writes the files in memory, reads them back.
+
+use crate::manifest::{Channel, Input, KIND, MANIFEST_FILE, Sampler, TextureEntry, VERSION};
+use crate::{Format, Image, Manifest, Pack, PackError, Role, Texture, ktx, limits, mip};
+
+/// What a pack is built from, beside its images.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PackInfo {
+    /// Name of the pack.
+    pub name: String,
+    /// Seed of every random stream.
+    pub seed: u64,
+    /// The program that bakes it, with its version.
+    pub baker: String,
+    /// Text of the recipe.
+    pub recipe: String,
+    /// Key in the recipe and hash of every file that the recipe named.
+    pub inputs: Vec<Input>,
+    /// Elevation of the sun at noon, in radians.
+    pub noon_elevation_rad: f32,
+}
+
+/// Level 0 of one texture, before quantisation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// What it is for.
+    pub role: Role,
+    /// The format to store it in; one of those that the role allows.
+    pub format: Format,
+    /// Values as a shader will read them: 0..1 for unorm formats.
+    pub image: Image,
+}
+
+impl Pack {
+    /// Builds a pack from linear images, and proves that reading it back gives the same texels.
+    ///
+    /// # Errors
+    /// [`PackError::Value`] if a role comes twice, its format is not one that it allows, or its image has
+    /// the wrong channels, sides that are not powers of two, or values that are not finite.
+    pub fn build(info: PackInfo, mut sources: Vec<Source>) -> Result<Pack, PackError> {
+        sources.sort_by_key(|source| source.role);
+        let mut textures = Vec::new();
+        for source in sources {
+            let file = source.role.file();
+            verify_source(&file, &source)?;
+            if textures.iter().any(|(role, _)| *role == source.role) {
+                return Err(PackError::value(
+                    &file,
+                    "role",
+                    "given twice",
+                    "one image a role",
+                ));
+            }
+            textures.push((source.role, quantise(source)));
+        }
+        Pack::from_textures(info, textures)
+    }
+
+    /// Builds a pack from quantised textures, in the order of their roles.
+    pub(crate) fn from_textures(
+        info: PackInfo,
+        sources: Vec<(Role, Texture)>,
+    ) -> Result<Pack, PackError> {
+        let mut textures = Vec::new();
+        let mut entries = Vec::new();
+        let mut files = Vec::new();
+        for (role, texture) in sources {
+            let file = role.file();
+            let bytes = ktx::encode(&file, &texture, &info.baker)?;
+            if ktx::decode(&file, &bytes)? != texture {
+                return Err(PackError::value(
+                    &file,
+                    "texels",
+                    "changed by writing",
+                    "the same after reading back",
+                ));
+            }
+            entries.push(entry(role, &file, &texture, &bytes));
+            textures.push(texture);
+            files.push((file, bytes));
+        }
+        let manifest = manifest(info, entries);
+        let json = manifest.to_json();
+        files.push((MANIFEST_FILE.to_string(), json.clone().into_bytes()));
+        let manifest = Manifest::from_json(MANIFEST_FILE, json.as_bytes())?;
+        Ok(Pack {
+            manifest,
+            textures,
+            files,
+        })
+    }
+}
+
+fn manifest(info: PackInfo, textures: Vec<TextureEntry>) -> Manifest {
+    Manifest {
+        kind: KIND.to_string(),
+        version: VERSION,
+        name: info.name,
+        seed: info.seed,
+        baker: info.baker,
+        recipe: info.recipe,
+        inputs: info.inputs,
+        noon_elevation_rad: info.noon_elevation_rad,
+        textures,
+        seal: String::new(),
+    }
+}
+
+fn verify_source(file: &str, source: &Source) -> Result<(), PackError> {
+    let (spec, image) = (source.role.spec(), &source.image);
+    let bad = |key: &str, found: String, expected: String| {
+        Err(PackError::value(file, key, found, expected))
+    };
+    if !spec.formats.contains(&source.format) {
+        let allowed: Vec<_> = spec.formats.iter().map(|f| f.name()).collect();
+        return bad(
+            "format",
+            source.format.name().to_string(),
+            allowed.join(" or "),
+        );
+    }
+    if image.channels != source.format.channels() {
+        return bad(
+            "channels",
+            image.channels.to_string(),
+            source.format.channels().to_string(),
+        );
+    }
+    for (key, side) in [("width", image.width), ("height", image.height)] {
+        if !side.is_power_of_two() || side > limits::MAX_SIDE {
+            return bad(
+                key,
+                side.to_string(),
+                format!("a power of two up to {}", limits::MAX_SIDE),
+            );
+        }
+    }
+    let count = image.width as usize * image.height as usize * image.channels;
+    if image.texels.len() != count {
+        return bad("texels", image.texels.len().to_string(), count.to_string());
+    }
+    if let Some(index) = image.texels.iter().position(|v| !v.is_finite()) {
+        return bad(
+            "texels",
+            format!("{} at {index}", image.texels[index]),
+            "finite values".to_string(),
+        );
+    }
+    Ok(())
+}
+
+fn quantise(source: Source) -> Texture {
+    Texture {
+        format: source.format,
+        shape: source.role.spec().shape,
+        width: source.image.width,
+        height: source.image.height,
+        layers: 1,
+        levels: mip::levels(source.role, source.format, source.image),
+    }
+}
+
+fn entry(role: Role, file: &str, texture: &Texture, bytes: &[u8]) -> TextureEntry {
+    let spec = role.spec();
+    let image = texture.image(0, 0);
+    let channel = |(index, spec): (usize, &crate::role::ChannelSpec)| {
+        let (mean, spread) = image.mean_and_spread(index);
+        Channel {
+            name: spec.name.to_string(),
+            meaning: spec.meaning.to_string(),
+            unit: spec.unit.to_string(),
+            range: spec.range,
+            mean,
+            spread,
+        }
+    };
+    TextureEntry {
+        role,
+        file: file.to_string(),
+        format: texture.format,
+        shape: texture.shape,
+        width: texture.width,
+        height: texture.height,
+        layers: texture.layers,
+        levels: texture.levels.len() as u32,
+        sampler: Sampler {
+            wrap: spec.wrap,
+            filter: spec.filter,
+        },
+        channels: spec.channels.iter().enumerate().map(channel).collect(),
+        file_bytes: bytes.len() as u64,
+        file_blake3: blake3::hash(bytes).to_hex().to_string(),
+        texels_blake3: texture.blake3().to_hex().to_string(),
+    }
+}

@@ -1,0 +1,126 @@
+//! The files of a pack: seal, manifest, hashes, containers, layouts.
+
+use std::path::Path;
+
+use super::report::Report;
+use super::rule::{CONTAINER, FILE_HASH, LAYOUT, MANIFEST, ROLES, SEAL, STATISTICS, TEXEL_HASH};
+use super::{report::Bound, subject};
+use crate::limits::{MAX_FILE_BYTES, MAX_MANIFEST_BYTES};
+use crate::manifest::{MANIFEST_FILE, TextureEntry};
+use crate::pack::read_file;
+use crate::{Manifest, PackError, Role, Texture, ktx};
+
+/// Checks the files and gives the textures that could be decoded and are laid out as their role asks.
+pub(super) fn check(report: &mut Report, folder: &Path) -> Result<Vec<(Role, Texture)>, PackError> {
+    let bytes = read_file(folder, MANIFEST_FILE, MAX_MANIFEST_BYTES)?;
+    let file = folder.join(MANIFEST_FILE).display().to_string();
+    let manifest = Manifest::parse(&file, &bytes)?;
+    report.verify(SEAL, MANIFEST_FILE, manifest.verify_seal(&file, &bytes));
+    let sound = report
+        .verify(MANIFEST, MANIFEST_FILE, manifest.verify(&file))
+        .is_some();
+    for role in Role::ALL {
+        let found = f64::from(u8::from(manifest.texture(role).is_some()));
+        report.measure(ROLES, role.name(), found, Bound::AtLeast(1.0));
+    }
+    if !sound {
+        for rule in [FILE_HASH, CONTAINER, LAYOUT, TEXEL_HASH, STATISTICS] {
+            report.skip(rule, "every texture", "the manifest is not sound");
+        }
+        return Ok(Vec::new());
+    }
+    Ok(manifest
+        .textures
+        .iter()
+        .filter_map(|entry| Some((entry.role, check_entry(report, folder, entry)?)))
+        .collect())
+}
+
+fn check_entry(report: &mut Report, folder: &Path, entry: &TextureEntry) -> Option<Texture> {
+    let file = folder.join(&entry.file).display().to_string();
+    let name = entry.role.name();
+    let bytes = read_file(folder, &entry.file, MAX_FILE_BYTES);
+    let bytes = bytes.and_then(|bytes| entry.verify_file(&file, &bytes).map(|()| bytes));
+    let Some(bytes) = report.verify(FILE_HASH, name, bytes) else {
+        skip(
+            report,
+            entry,
+            &[CONTAINER, LAYOUT, TEXEL_HASH, STATISTICS],
+            "the file is missing or damaged",
+        );
+        return None;
+    };
+    let Some(texture) = report.verify(CONTAINER, name, ktx::decode(&file, &bytes)) else {
+        skip(
+            report,
+            entry,
+            &[LAYOUT, TEXEL_HASH, STATISTICS],
+            "the container does not decode",
+        );
+        return None;
+    };
+    let layout = entry
+        .verify_layout(&file, &texture)
+        .and_then(|()| verify_role(&file, entry.role, &texture));
+    let layout = report.verify(LAYOUT, name, layout);
+    report.verify(TEXEL_HASH, name, entry.verify_texels(&file, &texture));
+    if layout.is_none() {
+        skip(
+            report,
+            entry,
+            &[STATISTICS],
+            "the layout is not that of its role",
+        );
+        return None;
+    }
+    check_statistics(report, entry, &texture);
+    Some(texture)
+}
+
+fn skip(report: &mut Report, entry: &TextureEntry, rules: &[super::Rule], why: &str) {
+    for rule in rules {
+        report.skip(*rule, entry.role.name(), why);
+    }
+}
+
+/// What the role asks beyond what the manifest says: sides that are powers of two, and all levels or one.
+fn verify_role(file: &str, role: Role, texture: &Texture) -> Result<(), PackError> {
+    for (key, side) in [("width", texture.width), ("height", texture.height)] {
+        if !side.is_power_of_two() || side < 4 {
+            return Err(PackError::value(file, key, side, "a power of two from 4"));
+        }
+    }
+    let levels = if role.spec().mips {
+        Texture::full_level_count(texture.width, texture.height)
+    } else {
+        1
+    };
+    if texture.levels.len() != levels {
+        return Err(PackError::value(
+            file,
+            "levels",
+            texture.levels.len(),
+            levels,
+        ));
+    }
+    Ok(())
+}
+
+/// The manifest's figures were computed from the same bytes in the same order: only their decimal
+/// digits may differ.
+fn check_statistics(report: &mut Report, entry: &TextureEntry, texture: &Texture) {
+    let image = texture.image(0, 0);
+    for (index, channel) in entry.channels.iter().enumerate() {
+        let (mean, spread) = image.mean_and_spread(index);
+        let apart = (mean - channel.mean)
+            .abs()
+            .max((spread - channel.spread).abs());
+        let scale = 1.0_f32.max(mean.abs());
+        report.measure(
+            STATISTICS,
+            &subject(entry.role, index),
+            f64::from(apart / scale),
+            Bound::AtMost(1e-5),
+        );
+    }
+}

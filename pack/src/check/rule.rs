@@ -1,0 +1,81 @@
+//! The rules of `welkin check`: an id, a severity and a sentence each. docs/checks.md explains them.
+
+use serde::{Deserialize, Serialize};
+
+/// How bad a broken rule is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// The pack is not sound.
+    Error,
+    /// The pack draws, but will hardly look as meant.
+    Warning,
+}
+
+/// A rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rule {
+    /// Name, stable across versions.
+    pub id: &'static str,
+    /// How bad it is when broken.
+    pub severity: Severity,
+    /// What it asks, in one sentence.
+    pub asks: &'static str,
+}
+
+const fn error(id: &'static str, asks: &'static str) -> Rule {
+    Rule {
+        id,
+        severity: Severity::Error,
+        asks,
+    }
+}
+
+const fn warning(id: &'static str, asks: &'static str) -> Rule {
+    Rule {
+        id,
+        severity: Severity::Warning,
+        asks,
+    }
+}
+
+macro_rules! rules {
+    ($($name:ident = $rule:expr;)*) => {
+        $(pub(super) const $name: Rule = $rule;)*
+        /// Every rule, in the order in which a report lists them.
+        pub const RULES: &[Rule] = &[$($name),*];
+    };
+}
+
+rules! {
+    SEAL = error("seal", "The manifest is the one that the baker wrote.");
+    MANIFEST = error("manifest", "Every entry of the manifest names what its role asks: file, format, shape, channels.");
+    ROLES = error("roles", "Every role has a texture.");
+    FILE_HASH = error("file-hash", "Every file has the size and the hash that the manifest gives.");
+    CONTAINER = error("container", "Every file is a KTX2 file that decodes whole.");
+    LAYOUT = error("layout", "Format, shape, size and levels of a file are those of the manifest and of the role.");
+    TEXEL_HASH = error("texel-hash", "The decoded texels have the hash that the manifest gives.");
+    STATISTICS = error("statistics", "Mean and spread of every channel are those of the manifest.");
+    MIP_MEAN = error("mip-mean", "Every level has the mean of level 0.");
+    SEAM = error("seam", "Across the edges a tiling channel changes no more than inside, on both axes and every level.");
+    SMOOTH = error("smooth", "Cloud channels are smooth at the texel.");
+    CLOUD_SPREAD = error("cloud-spread", "Cloud channels are neither flat nor black and white.");
+    CLOUD_COVER = error("cloud-cover", "The sky is open at little cover and shut at full cover.");
+    GRADIENT_MONOTONE = error("gradient-monotone", "The sunset gradient never falls, row by row, and is the same along a row.");
+    GRADIENT_STEP = error("gradient-step", "The sunset gradient has no step over 1/128.");
+    GRADIENT_ENDS = error("gradient-ends", "The sunset gradient reaches from 0 to 1 on every level.");
+    STAR_SHARE = error("star-share", "The star texture is mostly black, but not empty.");
+    STAR_EMPTY = error("star-empty", "Rate, variance and phase are zero where there is no star.");
+    STAR_CLIP = error("star-clip", "No star flickers below 0 or above 1, on any level.");
+    STAR_LIGHT = error("star-light", "Every level has the light of level 0.");
+    STAR_PHASE = error("star-phase", "The phases of the stars are spread evenly over the turn.");
+    STAR_LATTICE = error("star-lattice", "The stars do not lie on a lattice.");
+    STAR_CLUSTER = error("star-cluster", "The stars are not clustered.");
+    GALAXY_BRIGHTNESS = error("galaxy-brightness", "The galaxy is there, and does not fill the sky.");
+    SKY_RANGE = error("sky-range", "Radiance is finite and not negative.");
+    SKY_NIGHT = error("sky-night", "The night share is 0 at noon, 1 at midnight, and never outside 0..1.");
+    SKY_DAY = error("sky-day", "Noon is much brighter than midnight, and the horizon at noon brighter than the zenith.");
+    SKY_STEP = warning("sky-step", "The sky changes without jumps from one time of day to the next.");
+    SUN_DISC = error("sun-disc", "The sun's disc is bright in its middle and gone outside its edge.");
+    SUN_BORDER = error("sun-border", "Disc and glow are zero along the sides of the square.");
+}

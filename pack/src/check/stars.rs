@@ -1,0 +1,177 @@
+//! The star texture: records, not colours.
+//!
+//! The statistical rules compare the field with one of independent stars, and are set so that they blame
+//! such a field once in a million.
+
+use super::report::{Bound, Report};
+use super::rule::{
+    STAR_CLIP, STAR_CLUSTER, STAR_EMPTY, STAR_LATTICE, STAR_LIGHT, STAR_PHASE, STAR_SHARE,
+};
+use crate::{Role, Texture};
+
+const NAME: &str = Role::Stars.name();
+
+/// How often a rule may blame a sound field.
+const FALSE_ALARMS: f64 = 1e-6;
+
+/// The standard normal deviate that is exceeded with probability [`FALSE_ALARMS`].
+const FALSE_ALARM_Z: f64 = 4.753_424;
+
+pub(super) fn check(report: &mut Report, texture: &Texture) {
+    let texels = |level: usize| texture.levels[level].chunks_exact(4);
+    let all = || (0..texture.levels.len()).flat_map(texels);
+    let empty = all()
+        .filter(|t| t[0] == 0 && (t[1] | t[2] | t[3]) != 0)
+        .count();
+    report.measure(STAR_EMPTY, NAME, empty as f64, Bound::AtMost(0.0));
+    // Where there is no star, the rule above speaks.
+    let clipped = all()
+        .filter(|t| t[0] > 0 && (t[2] > t[0] || u16::from(t[0]) + u16::from(t[2]) > 255))
+        .count();
+    report.measure(STAR_CLIP, NAME, clipped as f64, Bound::AtMost(0.0));
+
+    let width = texture.width as usize;
+    let lit: Vec<[usize; 2]> = texels(0)
+        .enumerate()
+        .filter(|(_, t)| t[0] > 0)
+        .map(|(i, _)| [i % width, i / width])
+        .collect();
+    let share = lit.len() as f64 / texels(0).len() as f64;
+    // At one star in 16 texels stars touch; below one in 3000 a tile of 256x256 has some twenty.
+    report.measure(
+        STAR_SHARE,
+        NAME,
+        share,
+        Bound::Within(1.0 / 3000.0, 1.0 / 16.0),
+    );
+    check_light(report, texture);
+    if lit.len() < 20 {
+        for rule in [STAR_PHASE, STAR_LATTICE, STAR_CLUSTER] {
+            report.skip(rule, NAME, "too few stars for statistics");
+        }
+        return;
+    }
+    let phases: Vec<u8> = texels(0).filter(|t| t[0] > 0).map(|t| t[3]).collect();
+    check_phases(report, &phases);
+    check_lattice(report, &lit, texture.width, texture.height);
+    check_clusters(report, &lit, texture.width, texture.height);
+}
+
+/// The sum of intensities times the area of a texel, level by level.
+fn check_light(report: &mut Report, texture: &Texture) {
+    let sum = |level: usize| {
+        let sum: u64 = texture.levels[level]
+            .iter()
+            .step_by(4)
+            .map(|&b| u64::from(b))
+            .sum();
+        sum as f64
+    };
+    let base = sum(0);
+    let mut worst = 0.0_f64;
+    for level in 1..texture.levels.len() {
+        let (width, height) = texture.level_size(level);
+        let texels = f64::from(width) * f64::from(height);
+        let expected = base * texels / (f64::from(texture.width) * f64::from(texture.height));
+        // One step of a byte is the least that a level can be wrong by. Each star of level 0 was
+        // rounded before the levels were made, by a half step at most; a fiftieth is far above that.
+        worst = worst.max((sum(level) - expected).abs() / (1.0 + 0.02 * expected));
+    }
+    report.measure(STAR_LIGHT, NAME, worst, Bound::AtMost(1.0));
+}
+
+/// Pearson's chi-squared test of the phases in 16 bins (K. Pearson, 1900).
+fn check_phases(report: &mut Report, phases: &[u8]) {
+    let mut bins = [0.0_f64; 16];
+    phases
+        .iter()
+        .for_each(|&phase| bins[usize::from(phase >> 4)] += 1.0);
+    // Bytes round to nearest, so byte 0 also stands for what would be 256: half a step, far below the noise.
+    let most = chi_squared_quantile(15.0);
+    report.measure(STAR_PHASE, NAME, chi_squared(&bins), Bound::AtMost(most));
+}
+
+/// The largest peak of the structure factor `S(k) = |sum exp(-2 pi i k.x / size)|^2 / N`.
+///
+/// For independent stars S is exponentially distributed with mean 1 at every wave vector, for a lattice
+/// it is N at the lattice's own. A minimum distance lowers S at small k and lifts it little elsewhere.
+fn check_lattice(report: &mut Report, stars: &[[usize; 2]], width: u32, height: u32) {
+    let (width, height) = (width as usize, height as usize);
+    let wave = |n: usize| -> Vec<(f64, f64)> {
+        let angle = |i: usize| std::f64::consts::TAU * i as f64 / n as f64;
+        (0..n)
+            .map(|i| (libm::cos(angle(i)), libm::sin(angle(i))))
+            .collect()
+    };
+    let (along_x, along_y) = (wave(width), wave(height));
+    // Rows first, so that each wave vector costs the rows and not the stars.
+    let mut peak = 0.0_f64;
+    let mut row_sums = vec![(0.0, 0.0); height];
+    for kx in 0..width / 2 {
+        row_sums.fill((0.0, 0.0));
+        for &[x, y] in stars {
+            let (cos, sin) = along_x[kx * x % width];
+            row_sums[y].0 += cos;
+            row_sums[y].1 += sin;
+        }
+        for ky in 0..height {
+            // The conjugate half of the plane says nothing new.
+            if kx == 0 && (ky == 0 || ky > height / 2) {
+                continue;
+            }
+            let (mut re, mut im) = (0.0, 0.0);
+            for (y, &(a, b)) in row_sums.iter().enumerate() {
+                let (cos, sin) = along_y[ky * y % height];
+                re += a * cos - b * sin;
+                im += a * sin + b * cos;
+            }
+            peak = peak.max((re * re + im * im) / stars.len() as f64);
+        }
+    }
+    let waves = (width / 2 * height) as f64;
+    report.measure(
+        STAR_LATTICE,
+        NAME,
+        peak,
+        Bound::AtMost(libm::log(waves / FALSE_ALARMS)),
+    );
+}
+
+/// The index of dispersion of counts in cells of about four stars (variance over mean, 1 if independent).
+fn check_clusters(report: &mut Report, stars: &[[usize; 2]], width: u32, height: u32) {
+    let aim = libm::sqrt(stars.len() as f64 / 4.0);
+    let mut cells = 2_usize;
+    while cells * 2 <= aim as usize {
+        cells *= 2;
+    }
+    let mut counts = vec![0.0; cells * cells];
+    for &[x, y] in stars {
+        counts[(y * cells / height as usize) * cells + x * cells / width as usize] += 1.0;
+    }
+    let freedom = (counts.len() - 1) as f64;
+    let index = chi_squared(&counts) / freedom;
+    report.measure(
+        STAR_CLUSTER,
+        NAME,
+        index,
+        Bound::AtMost(chi_squared_quantile(freedom) / freedom),
+    );
+}
+
+/// Pearson's statistic against equal expectations.
+fn chi_squared(counts: &[f64]) -> f64 {
+    let expected = counts.iter().sum::<f64>() / counts.len() as f64;
+    counts
+        .iter()
+        .map(|n| (n - expected) * (n - expected) / expected)
+        .sum()
+}
+
+/// The value that chi squared exceeds with probability [`FALSE_ALARMS`].
+///
+/// E. B. Wilson and M. M. Hilferty, "The distribution of chi-square", 1931: the cube root is near normal.
+fn chi_squared_quantile(freedom: f64) -> f64 {
+    let a = 2.0 / (9.0 * freedom);
+    let root = 1.0 - a + FALSE_ALARM_Z * libm::sqrt(a);
+    freedom * root * root * root
+}

@@ -1,0 +1,67 @@
+//! The sun's disc and glow.
+
+use super::report::{Bound, Report};
+use super::rule::{SUN_BORDER, SUN_DISC};
+use super::subject;
+use crate::{Image, Role, Texture};
+
+const DISC: usize = 0;
+
+pub(super) fn check(report: &mut Report, texture: &Texture) {
+    let image = texture.image(0, 0);
+    let name = subject(Role::Sun, DISC);
+    let mut centre = 1.0_f32;
+    let mut outside = 0.0_f32;
+    for y in 0..image.height {
+        for x in 0..image.width {
+            // 1 at the middle of each side; the edge of the disc is at 0.5.
+            let radius = radius(&image, x, y);
+            if radius < 0.1 {
+                centre = centre.min(image.texel(x, y)[DISC]);
+            } else if radius > 0.6 {
+                outside = outside.max(image.texel(x, y)[DISC]);
+            }
+        }
+    }
+    report.measure(
+        SUN_DISC,
+        &format!("{name} centre"),
+        f64::from(centre),
+        Bound::AtLeast(0.9),
+    );
+    report.measure(
+        SUN_DISC,
+        &format!("{name} outside"),
+        f64::from(outside),
+        Bound::AtMost(0.01),
+    );
+    check_border(report, texture);
+}
+
+fn radius(image: &Image, x: u32, y: u32) -> f32 {
+    let unit = |i: u32, n: u32| (i as f32 + 0.5) / n as f32 * 2.0 - 1.0;
+    let (u, v) = (unit(x, image.width), unit(y, image.height));
+    libm::sqrtf(u * u + v * v)
+}
+
+/// Looks at level 0: what does not end at the side of the square shows as a square in the sky. Two
+/// steps of a byte are below what dithering hides.
+fn check_border(report: &mut Report, texture: &Texture) {
+    let image = texture.image(0, 0);
+    let (right, bottom) = (image.width - 1, image.height - 1);
+    for (channel, _) in Role::Sun.spec().channels.iter().enumerate() {
+        let mut brightest = 0.0_f32;
+        for i in 0..image.width.max(image.height) {
+            let (x, y) = (i.min(right), i.min(bottom));
+            for (x, y) in [(x, 0), (x, bottom), (0, y), (right, y)] {
+                brightest = brightest.max(image.texel(x, y)[channel]);
+            }
+        }
+        report.measure(
+            SUN_BORDER,
+            &subject(Role::Sun, channel),
+            f64::from(brightest),
+            Bound::AtMost(2.01 / 255.0),
+        );
+    }
+}

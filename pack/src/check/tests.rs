@@ -1,0 +1,442 @@
+//! Plants one fault at a time and sees that its rule, and no other error, fires.
+
+use std::fs;
+
+use super::{Outcome, RULES, Report, Severity, check};
+use crate::manifest::MANIFEST_FILE;
+use crate::test_pack::{Stream, half_float_pack, pack, stars, with, with_texture, write};
+use crate::{Image, Manifest, Pack, Role, Texture, ktx};
+
+fn check_pack(pack: &Pack) -> Report {
+    let folder = tempfile::tempdir().unwrap();
+    write(pack, folder.path());
+    check(folder.path()).unwrap()
+}
+
+/// The rules that report errors.
+fn errors(report: &Report) -> Vec<&'static str> {
+    let mut rules: Vec<_> = report
+        .findings
+        .iter()
+        .filter(|f| f.is_error())
+        .map(|f| f.rule)
+        .collect();
+    rules.dedup();
+    rules
+}
+
+fn assert_only(rule: &str, pack: &Pack) {
+    let report = check_pack(pack);
+    let lines: Vec<String> = report.problems().map(ToString::to_string).collect();
+    assert_eq!(errors(&report), [rule], "{lines:#?}");
+}
+
+fn each_texel(image: &mut Image, change: impl Fn(u32, u32, &mut [f32])) {
+    for y in 0..image.height {
+        for x in 0..image.width {
+            change(x, y, image.texel_mut(x, y));
+        }
+    }
+}
+
+#[test]
+fn a_sound_pack_passes_every_rule() {
+    for pack in [pack(), half_float_pack()] {
+        let report = check_pack(&pack);
+        let lines: Vec<String> = report.problems().map(ToString::to_string).collect();
+        assert!(lines.is_empty(), "{lines:#?}");
+        for rule in RULES {
+            let passed = |f: &&super::Finding| f.rule == rule.id && f.outcome == Outcome::Passed;
+            assert!(
+                report.findings.iter().any(|f| passed(&f)),
+                "{} was not looked at",
+                rule.id
+            );
+        }
+    }
+}
+
+#[test]
+fn every_rule_has_a_test_here_and_a_place_in_the_documentation() {
+    // Without white space, so that the formatter may break lines where it likes.
+    let tests: String = include_str!("tests.rs").split_whitespace().collect();
+    let documentation = include_str!("../../../docs/checks.md");
+    for rule in RULES {
+        let planted = [
+            format!("assert_only(\"{}\"", rule.id),
+            format!("[\"{}\"]", rule.id),
+        ];
+        assert!(
+            planted.iter().any(|text| tests.contains(text)),
+            "{}",
+            rule.id
+        );
+        let severity = if rule.severity == Severity::Error {
+            "error"
+        } else {
+            "warning"
+        };
+        let row = format!("| `{}` | {severity} | {}", rule.id, rule.asks);
+        assert!(documentation.contains(&row), "docs/checks.md lacks: {row}");
+    }
+}
+
+/// Writes a pack with its manifest changed, sealed again if asked.
+fn check_with_manifest(seal_again: bool, change: impl FnOnce(&mut Manifest)) -> Report {
+    let pack = pack();
+    let folder = tempfile::tempdir().unwrap();
+    write(&pack, folder.path());
+    let mut manifest = pack.manifest().clone();
+    change(&mut manifest);
+    let mut json = manifest.to_json();
+    if !seal_again {
+        json = json.replace("\"name\": \"test\"", "\"name\": \"best\"");
+    }
+    fs::write(folder.path().join(MANIFEST_FILE), json).unwrap();
+    check(folder.path()).unwrap()
+}
+
+#[test]
+fn an_edited_manifest_breaks_the_seal() {
+    assert_eq!(errors(&check_with_manifest(false, |_| ())), ["seal"]);
+}
+
+#[test]
+fn a_wrong_entry_breaks_the_manifest() {
+    let report = check_with_manifest(true, |m| {
+        m.textures[1].channels[0].name = "brightness".to_string()
+    });
+    assert_eq!(errors(&report), ["manifest"]);
+}
+
+#[test]
+fn a_missing_role_is_an_error() {
+    let report = check_with_manifest(true, |m| drop(m.textures.pop()));
+    assert_eq!(errors(&report), ["roles"]);
+}
+
+#[test]
+fn a_wrong_texel_hash_is_an_error() {
+    let report = check_with_manifest(true, |m| m.textures[2].texels_blake3 = "0".repeat(64));
+    assert_eq!(errors(&report), ["texel-hash"]);
+}
+
+#[test]
+fn wrong_statistics_are_an_error() {
+    let report = check_with_manifest(true, |m| m.textures[0].channels[1].mean += 0.001);
+    assert_eq!(errors(&report), ["statistics"]);
+}
+
+#[test]
+fn a_wrong_size_is_a_wrong_layout() {
+    let report = check_with_manifest(true, |m| m.textures[2].width = 64);
+    assert_eq!(errors(&report), ["layout"]);
+}
+
+#[test]
+fn missing_levels_are_a_wrong_layout() {
+    assert_only(
+        "layout",
+        &with_texture(Role::Galaxy, |t| t.levels.truncate(1)),
+    );
+}
+
+#[test]
+fn a_damaged_file_breaks_its_hash() {
+    let folder = tempfile::tempdir().unwrap();
+    write(&pack(), folder.path());
+    let path = folder.path().join("galaxy.ktx2");
+    let mut bytes = fs::read(&path).unwrap();
+    let last = bytes.len() - 1;
+    bytes[last] ^= 1;
+    fs::write(&path, bytes).unwrap();
+    assert_eq!(errors(&check(folder.path()).unwrap()), ["file-hash"]);
+    fs::remove_file(&path).unwrap();
+    assert_eq!(errors(&check(folder.path()).unwrap()), ["file-hash"]);
+}
+
+#[test]
+fn a_broken_container_with_a_true_hash_is_an_error() {
+    let pack = pack();
+    let folder = tempfile::tempdir().unwrap();
+    write(&pack, folder.path());
+    let mut bytes = pack.files()[2].1.clone();
+    bytes[12] = 200; // a vkFormat that no role has
+    let mut manifest = pack.manifest().clone();
+    manifest.textures[2].file_blake3 = blake3::hash(&bytes).to_hex().to_string();
+    fs::write(folder.path().join("galaxy.ktx2"), bytes).unwrap();
+    fs::write(folder.path().join(MANIFEST_FILE), manifest.to_json()).unwrap();
+    assert_eq!(errors(&check(folder.path()).unwrap()), ["container"]);
+}
+
+#[test]
+fn a_manifest_that_is_not_there_or_not_json_cannot_be_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(check(folder.path()).is_err());
+    fs::write(folder.path().join(MANIFEST_FILE), "{").unwrap();
+    assert!(check(folder.path()).is_err());
+}
+
+/// Changes bytes of one level only, leaving the others as they were.
+fn change_level(texture: &mut Texture, level: usize, change: impl Fn(usize, &mut [u8])) {
+    let bytes = texture.format.bytes_per_texel();
+    texture.levels[level]
+        .chunks_exact_mut(bytes)
+        .enumerate()
+        .for_each(|(i, t)| change(i, t));
+}
+
+#[test]
+fn a_level_with_another_mean_is_an_error() {
+    let brighter = |t: &mut Texture| change_level(t, 2, |_, t| t[0] = t[0].saturating_add(4));
+    assert_only("mip-mean", &with_texture(Role::Galaxy, brighter));
+}
+
+#[test]
+fn seams_are_errors_on_both_axes_and_on_small_levels() {
+    // A ramp across the tile that does not come back: it adds a step at the edge alone.
+    let ramp = |along_x: bool| {
+        with(Role::Clouds, move |image| {
+            let size = image.width as f32;
+            each_texel(image, |x, y, t| {
+                let along = if along_x { x } else { y } as f32 / size;
+                t[1] = (t[1] + 0.35 * (along - 0.5)).clamp(0.0, 1.0);
+            });
+        })
+    };
+    assert_only("seam", &ramp(true));
+    assert_only("seam", &ramp(false));
+    let small = with_texture(Role::Clouds, |t| {
+        change_level(t, 2, |i, t| {
+            t[2] = (f32::from(t[2]) * 0.6 + (i % 16) as f32 * 6.0 + 6.0) as u8
+        });
+    });
+    assert!(errors(&check_pack(&small)).contains(&"seam"));
+}
+
+#[test]
+fn texel_noise_is_not_smooth() {
+    let rough = with(Role::Clouds, |image| {
+        let mut stream = Stream::new(3);
+        image
+            .texels
+            .chunks_exact_mut(4)
+            .for_each(|t| t[0] = (t[0] + 0.2 * stream.unit() - 0.1).clamp(0.0, 1.0));
+    });
+    assert_only("smooth", &rough);
+}
+
+#[test]
+fn a_flat_channel_has_no_spread() {
+    let flat = with(Role::Clouds, |image| {
+        each_texel(image, |_, _, t| t[2] = 0.5 + 0.05 * (t[2] - 0.5))
+    });
+    assert_only("cloud-spread", &flat);
+}
+
+#[test]
+fn thick_channels_shut_the_sky() {
+    let thick = with(Role::Clouds, |image| {
+        each_texel(image, |_, _, t| {
+            t[0] = libm::powf(t[0], 0.25);
+            t[1] = libm::powf(t[1], 0.4);
+        });
+    });
+    assert_only("cloud-cover", &thick);
+}
+
+fn with_gradient(curve: impl Fn(f32) -> f32) -> Pack {
+    with(Role::Clouds, |image| {
+        let last = (image.height - 1) as f32;
+        each_texel(image, |_, y, t| t[3] = curve(y as f32 / last));
+    })
+}
+
+#[test]
+fn faults_of_the_gradient_each_have_a_rule() {
+    let wavy =
+        with_gradient(|v| (v + 0.05 * libm::sinf(v * 4.0 * std::f32::consts::TAU)).clamp(0.0, 1.0));
+    assert_only("gradient-monotone", &wavy);
+    assert_only(
+        "gradient-step",
+        &with_gradient(|v| if v < 0.5 { v * 0.8 } else { 0.2 + v * 0.8 }),
+    );
+    assert_only("gradient-ends", &with_gradient(|v| 0.1 + v * 0.9));
+    let uneven = with(Role::Clouds, |image| image.texel_mut(5, 20)[3] += 0.2);
+    assert_only("gradient-monotone", &uneven);
+}
+
+fn with_stars(change: impl FnOnce(&mut Image)) -> Pack {
+    with(Role::Stars, change)
+}
+
+fn each_star(image: &mut Image, mut change: impl FnMut(&mut [f32])) {
+    image
+        .texels
+        .chunks_exact_mut(4)
+        .filter(|t| t[0] > 0.0)
+        .for_each(&mut change);
+}
+
+#[test]
+fn a_sky_full_of_stars_is_an_error() {
+    assert_only("star-share", &with_stars(|image| *image = stars(128, 2000)));
+}
+
+#[test]
+fn a_sky_without_stars_is_an_error() {
+    assert_only("star-share", &with_stars(|image| image.texels.fill(0.0)));
+}
+
+#[test]
+fn data_where_there_is_no_star_is_an_error() {
+    let stray = with_texture(Role::Stars, |t| {
+        let dark = t.levels[0].chunks_exact(4).position(|t| t[0] == 0).unwrap();
+        t.levels[0][dark * 4 + 3] = 9;
+    });
+    assert_only("star-empty", &stray);
+}
+
+#[test]
+fn a_star_that_clips_is_an_error_on_any_level() {
+    for level in [0, 1, 3] {
+        let clipped = with_texture(Role::Stars, |t| {
+            let star = t.levels[level]
+                .chunks_exact(4)
+                .position(|t| t[0] > 0)
+                .unwrap();
+            t.levels[level][star * 4 + 2] = t.levels[level][star * 4] + 1;
+        });
+        assert_only("star-clip", &clipped);
+    }
+}
+
+#[test]
+fn a_level_that_loses_light_is_an_error() {
+    let darker = with_texture(Role::Stars, |t| {
+        change_level(t, 1, |_, t| {
+            t[0] = t[0] * 3 / 4;
+            t[2] = t[2].min(t[0]);
+            if t[0] == 0 {
+                t.fill(0);
+            }
+        });
+    });
+    assert_only("star-light", &darker);
+}
+
+#[test]
+fn stars_in_step_are_an_error() {
+    assert_only(
+        "star-phase",
+        &with_stars(|image| each_star(image, |t| t[3] *= 0.7)),
+    );
+}
+
+#[test]
+fn stars_on_a_lattice_are_an_error() {
+    let lattice = with_stars(|image| {
+        let mut stream = Stream::new(5);
+        let mut stars: Vec<[f32; 4]> = Vec::new();
+        each_star(image, |t| stars.push([t[0], t[1], t[2], t[3]]));
+        image.texels.fill(0.0);
+        for star in stars {
+            // One place in four of a lattice of five texels, so that counts still scatter.
+            let (x, y) = (stream.below(25) * 5, stream.below(25) * 5);
+            image.texel_mut(x, y).copy_from_slice(&star);
+        }
+    });
+    assert_only("star-lattice", &lattice);
+}
+
+#[test]
+fn stars_in_clusters_are_an_error() {
+    let clusters = with_stars(|image| {
+        let mut stream = Stream::new(6);
+        let mut stars: Vec<[f32; 4]> = Vec::new();
+        each_star(image, |t| stars.push([t[0], t[1], t[2], t[3]]));
+        image.texels.fill(0.0);
+        // Many small clusters all over: their structure factor is raised at every wave vector, but little.
+        let centres: Vec<[u32; 2]> = (0..160)
+            .map(|_| [stream.below(128), stream.below(128)])
+            .collect();
+        for (index, star) in stars.iter().enumerate() {
+            let [x, y] = centres[index % centres.len()];
+            let (x, y) = ((x + stream.below(9)) % 128, (y + stream.below(9)) % 128);
+            image.texel_mut(x, y).copy_from_slice(star);
+        }
+    });
+    assert_only("star-cluster", &clusters);
+}
+
+#[test]
+fn a_galaxy_that_is_dark_or_everywhere_is_an_error() {
+    assert_only(
+        "galaxy-brightness",
+        &with(Role::Galaxy, |image| image.texels.fill(0.0)),
+    );
+    assert_only(
+        "galaxy-brightness",
+        &with(Role::Galaxy, |image| image.texels.fill(0.8)),
+    );
+}
+
+#[test]
+fn faults_of_the_sky_each_have_a_rule() {
+    assert_only(
+        "sky-range",
+        &with(Role::Sky, |image| image.texel_mut(3, 3)[1] = -0.1),
+    );
+    let starry_noon = with(Role::Sky, |image| {
+        each_texel(image, |_, _, t| t[3] = t[3].max(0.2))
+    });
+    assert_only("sky-night", &starry_noon);
+    let white_night = with(Role::Sky, |image| {
+        each_texel(image, |_, _, t| t[..3].iter_mut().for_each(|v| *v += 0.2))
+    });
+    assert_only("sky-day", &white_night);
+    let sudden = with(Role::Sky, |image| {
+        each_texel(image, |x, _, t| {
+            t[..3].iter_mut().for_each(|v| {
+                *v = if (16..48).contains(&x) { *v + 0.6 } else { *v };
+            })
+        })
+    });
+    let report = check_pack(&sudden);
+    let warned: Vec<_> = report.problems().map(|f| f.rule).collect();
+    assert!(report.is_sound());
+    assert_eq!(warned, ["sky-step"]);
+}
+
+#[test]
+fn faults_of_the_sun_each_have_a_rule() {
+    let hollow = with(Role::Sun, |image| {
+        let middle = image.width / 2;
+        image.texel_mut(middle, middle)[0] = 0.2;
+    });
+    assert_only("sun-disc", &hollow);
+    let square = with(Role::Sun, |image| {
+        each_texel(image, |_, _, t| t[1] = t[1].max(0.05))
+    });
+    assert_only("sun-border", &square);
+}
+
+#[test]
+fn the_report_lists_every_rule_with_its_figure_as_json() {
+    let report = check_pack(&pack());
+    let json: serde_json::Value = serde_json::from_str(&report.to_json()).unwrap();
+    assert_eq!(json["sound"], true);
+    let findings = json["findings"].as_array().unwrap();
+    assert_eq!(findings.len(), report.findings.len());
+    let seam = findings.iter().find(|f| f["rule"] == "seam").unwrap();
+    assert!(seam["figure"].is_f64() && seam["outcome"] == "passed" && seam["severity"] == "error");
+}
+
+#[test]
+fn containers_decode_as_they_were_encoded() {
+    for (name, bytes) in pack().files() {
+        if name != MANIFEST_FILE {
+            assert!(ktx::decode(name, bytes).is_ok());
+        }
+    }
+}

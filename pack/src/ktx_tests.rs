@@ -1,0 +1,201 @@
+//! Round trips of every format and shape, and hostile files.
+
+use proptest::prelude::*;
+
+use crate::ktx::{decode, encode};
+use crate::texture::level_size;
+use crate::{Format, PackError, Shape, Texture};
+
+fn texture(
+    format: Format,
+    shape: Shape,
+    width: u32,
+    height: u32,
+    layers: u32,
+    mips: bool,
+) -> Texture {
+    let count = if mips {
+        Texture::full_level_count(width, height)
+    } else {
+        1
+    };
+    let mut texture = Texture {
+        format,
+        shape,
+        width,
+        height,
+        layers,
+        levels: Vec::new(),
+    };
+    for level in 0..count {
+        let bytes = texture.level_bytes(level);
+        // Small steps, so that half floats stay finite.
+        texture.levels.push(
+            (0..bytes)
+                .map(|i| ((i * 7 + level * 31) % 60) as u8)
+                .collect(),
+        );
+    }
+    texture
+}
+
+fn sample() -> Vec<u8> {
+    encode(
+        "t.ktx2",
+        &texture(Format::Rgba8Unorm, Shape::D2, 16, 8, 1, true),
+        "welkin test",
+    )
+    .unwrap()
+}
+
+#[test]
+fn every_format_and_shape_survives() {
+    for format in Format::ALL {
+        for (shape, size, layers) in [
+            (Shape::D2, [16, 8], 1),
+            (Shape::Array, [8, 8], 3),
+            (Shape::Cube, [8, 8], 6),
+        ] {
+            for mips in [true, false] {
+                let texture = texture(format, shape, size[0], size[1], layers, mips);
+                let bytes = encode("t.ktx2", &texture, "welkin test").unwrap();
+                assert_eq!(
+                    decode("t.ktx2", &bytes).unwrap(),
+                    texture,
+                    "{format:?} {shape:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_same_texture_gives_the_same_bytes() {
+    assert_eq!(sample(), sample());
+}
+
+#[test]
+fn key_values_are_what_the_specification_asks() {
+    let bytes = sample();
+    let reader = ktx2::Reader::new(&bytes[..]).unwrap();
+    let pairs: Vec<_> = reader.key_value_data().collect();
+    assert_eq!(
+        pairs,
+        [
+            ("KTXorientation", &b"rd\0"[..]),
+            ("KTXwriter", &b"welkin test\0"[..])
+        ]
+    );
+    assert_eq!(reader.basic_dfd().unwrap().bytes_planes[0], 4);
+    assert_eq!(
+        reader.transfer_function(),
+        Some(ktx2::TransferFunction::Linear)
+    );
+}
+
+#[test]
+fn levels_lie_smallest_first() {
+    let bytes = sample();
+    let start = |level: usize| {
+        let at = 80 + level * 24;
+        u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap())
+    };
+    assert!((1..5).all(|level| start(level) < start(level - 1)));
+}
+
+/// Decodes the sample with four bytes of its header replaced, and gives the field that was blamed.
+fn blamed(offset: usize, value: u32) -> String {
+    let mut bytes = sample();
+    bytes[offset..offset + 4].copy_from_slice(&value.to_le_bytes());
+    match decode("t.ktx2", &bytes).unwrap_err() {
+        PackError::Value { key, .. } | PackError::TooLarge { key, .. } => key,
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn hostile_headers_are_refused_by_name() {
+    assert_eq!(blamed(0, 0), "container");
+    assert_eq!(blamed(12, 43), "vkFormat"); // R8G8B8A8_SRGB: data is linear
+    assert_eq!(blamed(12, 9), "data format descriptor"); // R8 with the descriptor of RGBA8
+    assert_eq!(blamed(16, 4), "typeSize");
+    assert_eq!(blamed(20, 0), "container");
+    assert_eq!(blamed(20, 100_000), "pixelWidth");
+    assert_eq!(blamed(24, 0), "pixelDepth");
+    assert_eq!(blamed(24, u32::MAX), "pixelHeight");
+    assert_eq!(blamed(28, 2), "pixelDepth");
+    assert_eq!(blamed(32, u32::MAX), "layerCount");
+    assert_eq!(blamed(36, 6), "faceCount");
+    assert_eq!(blamed(36, 3), "faceCount");
+    assert_eq!(blamed(40, 0), "levelCount");
+    assert_eq!(blamed(40, 4), "levelCount");
+    assert_eq!(blamed(40, u32::MAX), "container");
+    assert_eq!(blamed(44, 1), "supercompressionScheme");
+    assert_eq!(blamed(44, 3), "supercompressionScheme");
+    assert_eq!(blamed(48, u32::MAX), "container");
+    assert_eq!(blamed(80 + 16, 100), "level 0");
+}
+
+#[test]
+fn a_small_file_that_claims_much_is_refused_before_anything_is_allocated() {
+    let mut bytes = sample();
+    bytes[20..24].copy_from_slice(&8192_u32.to_le_bytes());
+    bytes[24..28].copy_from_slice(&8192_u32.to_le_bytes());
+    bytes[32..36].copy_from_slice(&256_u32.to_le_bytes());
+    bytes[40..44].copy_from_slice(&1_u32.to_le_bytes());
+    let error = decode("t.ktx2", &bytes).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            PackError::TooLarge {
+                found: 68_719_476_736,
+                ..
+            }
+        ),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_level_that_inflates_to_more_than_it_claims_is_refused() {
+    let mut bytes = sample();
+    let bomb = zstd::bulk::compress(&vec![0_u8; 10_000_000], 3).unwrap();
+    let offset = bytes.len() as u64;
+    bytes[80..88].copy_from_slice(&offset.to_le_bytes());
+    bytes[88..96].copy_from_slice(&(bomb.len() as u64).to_le_bytes());
+    bytes.extend(bomb);
+    let error = decode("t.ktx2", &bytes).unwrap_err().to_string();
+    assert_eq!(error, "t.ktx2: level 0 is 513 bytes, expected 512 bytes");
+}
+
+#[test]
+fn a_truncated_file_is_refused_at_every_length() {
+    let bytes = sample();
+    for length in 0..bytes.len() {
+        assert!(decode("t.ktx2", &bytes[..length]).is_err(), "{length}");
+    }
+}
+
+#[test]
+fn level_sizes_end_at_one() {
+    assert_eq!(level_size(16, 4, 3), (2, 1));
+    assert_eq!(level_size(16, 4, 40), (1, 1));
+    assert_eq!(Texture::full_level_count(512, 512), 10);
+    assert_eq!(Texture::full_level_count(1, 1), 1);
+}
+
+proptest! {
+    #[test]
+    fn no_bytes_make_it_panic(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
+        let _ = decode("t.ktx2", &bytes);
+    }
+
+    #[test]
+    fn no_damage_makes_it_panic(at in 0_usize..400, value in any::<u8>(), at_2 in 0_usize..200, value_2 in any::<u8>()) {
+        let mut bytes = sample();
+        let length = bytes.len();
+        bytes[at % length] = value;
+        bytes[at_2 % length] = value_2;
+        let _ = decode("t.ktx2", &bytes);
+    }
+}

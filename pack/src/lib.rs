@@ -1,0 +1,40 @@
+//! Sky texture packs: the contract between the program that bakes them and the runtime that draws them.
+
+#[cfg(feature = "write")]
+mod build;
+pub mod check;
+pub mod error;
+pub mod format;
+pub mod image;
+pub mod ktx;
+#[cfg(test)]
+#[cfg(feature = "write")]
+mod ktx_tests;
+pub mod limits;
+pub mod manifest;
+pub mod mapping;
+#[cfg(feature = "write")]
+mod mip;
+pub mod pack;
+#[cfg(test)]
+#[cfg(feature = "write")]
+mod pack_tests;
+pub mod role;
+#[cfg(feature = "write")]
+mod save;
+#[cfg(test)]
+#[cfg(feature = "write")]
+mod test_pack;
+pub mod texel;
+pub mod texture;
+
+pub use error::PackError;
+pub use format::{Format, Shape};
+pub use image::Image;
+pub use manifest::Manifest;
+pub use pack::Pack;
+#[cfg(feature = "write")]
+pub use pack::{Overwrite, PackInfo, Source};
+pub use role::Role;
+pub use texel::{CloudTexel, StarTexel};
+pub use texture::Texture;

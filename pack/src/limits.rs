@@ -1,0 +1,16 @@
+//! Sizes that no pack exceeds: a reader refuses more before it allocates for it.
+
+/// Largest width and height of a texture, in texels: what wgpu's default limits allow.
+pub const MAX_SIDE: u32 = 8192;
+
+/// Largest number of layers of an array, as wgpu's default limits allow.
+pub const MAX_LAYERS: u32 = 256;
+
+/// Largest texture, all levels decoded, in bytes: 256 MiB.
+pub const MAX_TEXTURE_BYTES: u64 = 256 << 20;
+
+/// Largest file of a texture, in bytes: 256 MiB.
+pub const MAX_FILE_BYTES: u64 = 256 << 20;
+
+/// Largest manifest, in bytes: 1 MiB.
+pub const MAX_MANIFEST_BYTES: u64 = 1 << 20;

@@ -1,0 +1,250 @@
+//! Packs on disk: opened, refused, saved whole or not at all.
+
+use std::fs;
+use std::path::Path;
+
+use crate::manifest::{MANIFEST_FILE, schema_json};
+use crate::test_pack::{info, pack, sources, write};
+use crate::{Overwrite, Pack, PackError, Role};
+
+fn never() -> bool {
+    false
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> = fs::read_dir(folder)
+        .unwrap()
+        .map(|e| e.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+/// A pack of one tiny texture: small enough to damage everywhere.
+fn tiny() -> Pack {
+    let pack = pack();
+    let mut texture = pack.texture(Role::Galaxy).unwrap().clone();
+    texture.levels.drain(..3);
+    (texture.width, texture.height) = (4, 4);
+    Pack::from_textures(info(), vec![(Role::Galaxy, texture)]).unwrap()
+}
+
+fn open_bytes(files: &[(String, Vec<u8>)]) -> Result<Pack, PackError> {
+    Pack::from_files("p", |name, _| {
+        Ok(files.iter().find(|(n, _)| n == name).unwrap().1.clone())
+    })
+}
+
+#[test]
+fn a_saved_pack_opens_as_it_was() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path().join("a/b/pack");
+    let pack = pack();
+    pack.save(&folder, Overwrite::Keep, &never).unwrap();
+    assert_eq!(Pack::open(&folder).unwrap(), pack);
+    assert_eq!(names(folder.parent().unwrap()), ["pack"]);
+    assert_eq!(
+        names(&folder),
+        [
+            "clouds.ktx2",
+            "galaxy.ktx2",
+            "pack.json",
+            "sky.ktx2",
+            "stars.ktx2",
+            "sun.ktx2"
+        ]
+    );
+}
+
+#[test]
+fn an_existing_pack_is_kept_unless_told_otherwise() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path().join("pack");
+    pack().save(&folder, Overwrite::Keep, &never).unwrap();
+    let error = tiny().save(&folder, Overwrite::Keep, &never).unwrap_err();
+    assert!(matches!(error, PackError::Exists { .. }), "{error}");
+    assert_eq!(Pack::open(&folder).unwrap(), pack());
+    tiny().save(&folder, Overwrite::Replace, &never).unwrap();
+    assert_eq!(Pack::open(&folder).unwrap(), tiny());
+    assert_eq!(names(place.path()), ["pack"]);
+}
+
+#[test]
+fn a_folder_that_is_not_a_pack_is_never_replaced() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path().join("thesis");
+    fs::create_dir(&folder).unwrap();
+    fs::write(folder.join("chapter"), "1").unwrap();
+    let error = pack()
+        .save(&folder, Overwrite::Replace, &never)
+        .unwrap_err();
+    assert!(matches!(error, PackError::NotAPack { .. }), "{error}");
+    let file = folder.join("chapter");
+    assert!(matches!(
+        pack().save(&file, Overwrite::Replace, &never),
+        Err(PackError::NotAPack { .. })
+    ));
+    assert_eq!(names(&folder), ["chapter"]);
+}
+
+#[test]
+fn a_pack_that_cannot_be_written_leaves_nothing() {
+    let place = tempfile::tempdir().unwrap();
+    fs::write(place.path().join("file"), "").unwrap();
+    let error = pack()
+        .save(place.path().join("file/pack"), Overwrite::Keep, &never)
+        .unwrap_err();
+    assert!(matches!(error, PackError::Write { .. }), "{error}");
+    assert_eq!(names(place.path()), ["file"]);
+}
+
+#[test]
+fn cancelling_leaves_nothing_not_even_new_folders() {
+    let place = tempfile::tempdir().unwrap();
+    for steps in 0..7 {
+        let left = std::cell::Cell::new(steps);
+        let cancelled = || left.replace(left.get().max(1) - 1) == 0;
+        let error = pack()
+            .save(place.path().join("new/pack"), Overwrite::Keep, &cancelled)
+            .unwrap_err();
+        assert!(matches!(error, PackError::Cancelled), "{error}");
+        assert!(names(place.path()).is_empty());
+    }
+}
+
+#[test]
+fn one_flipped_bit_anywhere_is_refused() {
+    let files = tiny().files().to_vec();
+    open_bytes(&files).unwrap();
+    for file in 0..files.len() {
+        for at in 0..files[file].1.len() {
+            for bit in 0..8 {
+                let mut damaged = files.clone();
+                damaged[file].1[at] ^= 1 << bit;
+                assert!(
+                    open_bytes(&damaged).is_err(),
+                    "{} byte {at} bit {bit}",
+                    files[file].0
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    let place = tempfile::tempdir().unwrap();
+    write(&pack(), place.path());
+    fs::remove_file(place.path().join("stars.ktx2")).unwrap();
+    let error = Pack::open(place.path()).unwrap_err();
+    assert!(
+        matches!(&error, PackError::Missing { file, .. } if file.ends_with("stars.ktx2")),
+        "{error}"
+    );
+    assert!(matches!(
+        Pack::open(place.path().join("nowhere")),
+        Err(PackError::Missing { .. })
+    ));
+}
+
+#[test]
+fn a_file_over_the_limit_is_not_read() {
+    let place = tempfile::tempdir().unwrap();
+    write(&pack(), place.path());
+    let file = fs::OpenOptions::new()
+        .write(true)
+        .open(place.path().join(MANIFEST_FILE))
+        .unwrap();
+    file.set_len(crate::limits::MAX_MANIFEST_BYTES + 1).unwrap();
+    let error = Pack::open(place.path()).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            PackError::TooLarge {
+                found: 1_048_577,
+                limit: 1_048_576,
+                ..
+            }
+        ),
+        "{error}"
+    );
+}
+
+fn open_with_manifest(change: impl Fn(&str) -> String) -> String {
+    let mut files = tiny().files().to_vec();
+    let text = String::from_utf8(files[1].1.clone()).unwrap();
+    files[1].1 = change(&text).into_bytes();
+    open_bytes(&files).unwrap_err().to_string()
+}
+
+#[test]
+fn another_version_is_refused_for_its_version() {
+    let error = open_with_manifest(|text| {
+        text.replace("\"version\": 1", "\"version\": 2")
+            .replace("\"seed\"", "\"seeds\"")
+    });
+    assert_eq!(
+        error,
+        "p/pack.json: version is 2, expected 1; use a welkin that knows this version, or bake again"
+    );
+}
+
+#[test]
+fn errors_of_the_manifest_name_line_key_found_and_expected() {
+    let error = open_with_manifest(|text| text.replace("\"seed\"", "\"seeds\""));
+    assert!(error.starts_with("p/pack.json:5:"), "{error}");
+    assert!(error.contains("unknown field `seeds`"), "{error}");
+    let error = open_with_manifest(|text| text.replace("welkin-pack", "gltf"));
+    assert_eq!(
+        error,
+        "p/pack.json: kind is \"gltf\", expected \"welkin-pack\""
+    );
+    let error = open_with_manifest(|text| text.replace("\"test\"", "\"best\""));
+    assert!(error.contains("seal is "), "{error}");
+}
+
+#[test]
+fn images_that_do_not_fit_their_role_are_refused() {
+    let blamed = |change: &dyn Fn(&mut Vec<crate::Source>)| {
+        let mut sources = sources();
+        change(&mut sources);
+        match Pack::build(info(), sources).unwrap_err() {
+            PackError::Value { file, key, .. } => format!("{file} {key}"),
+            other => panic!("{other}"),
+        }
+    };
+    assert_eq!(
+        blamed(&|s| s[0].format = crate::Format::R8Unorm),
+        "clouds.ktx2 format"
+    );
+    assert_eq!(
+        blamed(&|s| s[1].image = crate::Image::new(128, 128, 1)),
+        "stars.ktx2 channels"
+    );
+    assert_eq!(
+        blamed(&|s| s[2].image = crate::Image::new(100, 128, 1)),
+        "galaxy.ktx2 width"
+    );
+    assert_eq!(
+        blamed(&|s| s[2].image.texels[7] = f32::NAN),
+        "galaxy.ktx2 texels"
+    );
+    assert_eq!(
+        blamed(&|s| s[2].image.texels.truncate(5)),
+        "galaxy.ktx2 texels"
+    );
+    assert_eq!(blamed(&|s| s[1] = s[2].clone()), "galaxy.ktx2 role");
+}
+
+#[test]
+fn the_published_schema_is_current() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/pack.schema.json");
+    if std::env::var_os("WELKIN_BLESS").is_some() {
+        fs::write(&path, schema_json()).unwrap();
+    }
+    let published = fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        published == schema_json(),
+        "docs/pack.schema.json is old: run `WELKIN_BLESS=1 make test` and look at the change"
+    );
+}

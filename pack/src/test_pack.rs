@@ -1,0 +1,198 @@
+//! A small pack that breaks no rule, for tests to break.
+
+use crate::mapping::galaxy_uv_to_direction;
+use crate::{Format, Image, Pack, PackInfo, Role, Source, StarTexel};
+
+/// A stream of numbers in 0..1: a 64-bit linear congruential generator (D. E. Knuth, MMIX), upper bits.
+pub(crate) struct Stream(u64);
+
+impl Stream {
+    pub(crate) fn new(seed: u64) -> Stream {
+        Stream(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    pub(crate) fn unit(&mut self) -> f32 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 40) as f32 / 16_777_216.0
+    }
+
+    pub(crate) fn below(&mut self, n: u32) -> u32 {
+        ((self.unit() * n as f32) as u32).min(n - 1)
+    }
+}
+
+pub(crate) fn info() -> PackInfo {
+    PackInfo {
+        name: "test".to_string(),
+        seed: 7,
+        baker: "welkin-test 0".to_string(),
+        recipe: "name = \"test\"\n".to_string(),
+        inputs: Vec::new(),
+        noon_elevation_rad: 1.0,
+    }
+}
+
+pub(crate) fn sources() -> Vec<Source> {
+    let source = |role: Role, image| Source {
+        role,
+        format: role.spec().formats[0],
+        image,
+    };
+    vec![
+        source(Role::Clouds, clouds(64)),
+        source(Role::Stars, stars(128, 500)),
+        source(Role::Galaxy, galaxy(32)),
+        source(Role::Sky, sky(64, 16)),
+        source(Role::Sun, sun(32)),
+    ]
+}
+
+pub(crate) fn pack() -> Pack {
+    Pack::build(info(), sources()).unwrap()
+}
+
+/// Writes a pack's files into a folder, as they are.
+pub(crate) fn write(pack: &Pack, folder: &std::path::Path) {
+    for (name, bytes) in pack.files() {
+        std::fs::write(folder.join(name), bytes).unwrap();
+    }
+}
+
+pub(crate) fn clouds(size: u32) -> Image {
+    let mut image = Image::new(size, size, 4);
+    for (channel, power) in [(0, 2.6), (1, 1.8), (2, 1.0)] {
+        let field = waves(size, channel as u64);
+        for (texel, value) in image.texels.chunks_exact_mut(4).zip(field) {
+            texel[channel] = libm::powf(value, power);
+        }
+    }
+    for y in 0..size {
+        for x in 0..size {
+            let row = y as f32 / (size - 1) as f32;
+            image.texel_mut(x, y)[3] = row * row;
+        }
+    }
+    image
+}
+
+/// A sum of waves that fit into the tile, from 0 to 1.
+fn waves(size: u32, seed: u64) -> Vec<f32> {
+    let mut stream = Stream::new(seed);
+    let waves: Vec<[f32; 3]> = (0..40)
+        .map(|_| {
+            [
+                stream.below(9) as f32 - 4.0,
+                stream.below(9) as f32 - 4.0,
+                stream.unit(),
+            ]
+        })
+        .collect();
+    let at = |x: u32, y: u32| {
+        let turn = |w: &[f32; 3]| (w[0] * x as f32 + w[1] * y as f32) / size as f32 + w[2];
+        waves
+            .iter()
+            .map(|w| libm::cosf(std::f32::consts::TAU * turn(w)))
+            .sum::<f32>()
+    };
+    let field: Vec<f32> = (0..size * size).map(|i| at(i % size, i / size)).collect();
+    let (least, most) = field
+        .iter()
+        .fold((f32::MAX, f32::MIN), |(a, b), &v| (a.min(v), b.max(v)));
+    field.iter().map(|v| (v - least) / (most - least)).collect()
+}
+
+pub(crate) fn stars(size: u32, count: usize) -> Image {
+    let mut image = Image::new(size, size, 4);
+    let mut stream = Stream::new(11);
+    for _ in 0..count {
+        let (x, y) = (stream.below(size), stream.below(size));
+        let intensity = 0.05 + 0.6 * stream.unit();
+        let star = StarTexel {
+            intensity,
+            rate: 0.5,
+            variance: intensity * 0.3,
+            phase: stream.unit() * 0.998,
+        };
+        let bytes = star.encode();
+        image
+            .texel_mut(x, y)
+            .copy_from_slice(&bytes.map(|b| f32::from(b) / 255.0));
+    }
+    image
+}
+
+fn galaxy(size: u32) -> Image {
+    let mut image = Image::new(size, size, 1);
+    for y in 0..size {
+        for x in 0..size {
+            let uv = [x, y].map(|i| (i as f32 + 0.5) / size as f32);
+            let [east, _, _] = galaxy_uv_to_direction(uv);
+            image.texel_mut(x, y)[0] = 0.9 * libm::expf(-12.0 * east * east);
+        }
+    }
+    image
+}
+
+fn sky(width: u32, height: u32) -> Image {
+    let mut image = Image::new(width, height, 4);
+    for y in 0..height {
+        for x in 0..width {
+            let turn = std::f32::consts::TAU * x as f32 / width as f32;
+            let day = (0.5 - 0.5 * libm::cosf(turn)).powi(2);
+            let low = 1.0 - y as f32 / height as f32;
+            let light = 0.01 + day * (0.4 + 0.5 * low);
+            image.texel_mut(x, y).copy_from_slice(&[
+                light * 0.7,
+                light * 0.8,
+                light,
+                (1.0 - 2.0 * day).max(0.0),
+            ]);
+        }
+    }
+    image
+}
+
+fn sun(size: u32) -> Image {
+    let mut image = Image::new(size, size, 2);
+    for y in 0..size {
+        for x in 0..size {
+            let unit = |i: u32| (i as f32 + 0.5) / size as f32 * 2.0 - 1.0;
+            let radius = libm::sqrtf(unit(x) * unit(x) + unit(y) * unit(y));
+            let disc = ((0.55 - radius) / 0.1).clamp(0.0, 1.0);
+            let glow = (1.0 - radius).max(0.0);
+            image
+                .texel_mut(x, y)
+                .copy_from_slice(&[disc, glow * glow * glow]);
+        }
+    }
+    image
+}
+
+/// Level 0 of every texture of a pack with one of them changed, built into a pack with true hashes.
+pub(crate) fn with(role: Role, change: impl FnOnce(&mut Image)) -> Pack {
+    let mut sources = sources();
+    let source = sources.iter_mut().find(|s| s.role == role).unwrap();
+    change(&mut source.image);
+    Pack::build(info(), sources).unwrap()
+}
+
+/// A pack whose quantised texture was changed, with true hashes.
+pub(crate) fn with_texture(role: Role, change: impl FnOnce(&mut crate::Texture)) -> Pack {
+    let pack = pack();
+    let mut textures: Vec<_> = Role::ALL
+        .iter()
+        .map(|r| (*r, pack.texture(*r).unwrap().clone()))
+        .collect();
+    change(&mut textures.iter_mut().find(|(r, _)| *r == role).unwrap().1);
+    Pack::from_textures(info(), textures).unwrap()
+}
+
+/// The same clouds as half floats.
+pub(crate) fn half_float_pack() -> Pack {
+    let mut sources = sources();
+    sources[0].format = Format::Rgba16Float;
+    Pack::build(info(), sources).unwrap()
+}

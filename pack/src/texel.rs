@@ -1,0 +1,161 @@
+//! Typed texels: what the four numbers of a texel mean, and their bytes.
+//!
+//! Every field is the value a shader reads from a unorm texture, 0..1. The ranges that turn them into
+//! physical units are in [`crate::role`] and in every manifest.
+
+use crate::texture::unorm8;
+
+/// A texel of the role `clouds`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CloudTexel {
+    /// Cloud amount from a photograph, 0 clear to 1 thick.
+    pub photo: f32,
+    /// Cloud amount from fractal noise, 0 clear to 1 thick.
+    pub noise: f32,
+    /// Finer fractal noise that roughens thin clouds.
+    pub detail: f32,
+    /// Sunset tint: 0 away from the sun to 1 on the horizon below it.
+    pub gradient: f32,
+}
+
+impl CloudTexel {
+    /// The nearest RGBA8 texel.
+    pub fn encode(self) -> [u8; 4] {
+        [self.photo, self.noise, self.detail, self.gradient].map(unorm8)
+    }
+
+    /// Reads an RGBA8 texel.
+    pub fn decode(bytes: [u8; 4]) -> CloudTexel {
+        let [photo, noise, detail, gradient] = bytes.map(|b| f32::from(b) / 255.0);
+        CloudTexel {
+            photo,
+            noise,
+            detail,
+            gradient,
+        }
+    }
+}
+
+/// A texel of the role `stars`: `I(t) = intensity + variance * sin(2 pi (rate t + phase))`.
+///
+/// Zero intensity means that there is no star, and then all four are zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StarTexel {
+    /// Mean intensity, 0 (no star) to 1 (the brightest).
+    pub intensity: f32,
+    /// Flicker rate; times [`StarTexel::MAX_RATE_HZ`] it is in hertz.
+    pub rate: f32,
+    /// Amplitude of the flicker, in the unit of `intensity`.
+    pub variance: f32,
+    /// Where in its cycle the star is at time 0, in turns.
+    pub phase: f32,
+}
+
+impl StarTexel {
+    /// The rate that the byte 255 stands for, in hertz: a byte counts 64ths of a hertz, so the whole
+    /// field repeats after exactly 64 s and any time can be drawn without loss of precision.
+    pub const MAX_RATE_HZ: f32 = 255.0 / 64.0;
+
+    /// After this time every star is in the same state again, in seconds.
+    pub const PERIOD_S: f64 = 64.0;
+
+    /// The nearest RGBA8 texel.
+    pub fn encode(self) -> [u8; 4] {
+        [self.intensity, self.rate, self.variance, self.phase].map(unorm8)
+    }
+
+    /// Reads an RGBA8 texel.
+    pub fn decode(bytes: [u8; 4]) -> StarTexel {
+        let [intensity, rate, variance, phase] = bytes.map(|b| f32::from(b) / 255.0);
+        StarTexel {
+            intensity,
+            rate,
+            variance,
+            phase,
+        }
+    }
+
+    /// Intensity at `seconds`.
+    pub fn intensity_at(self, seconds: f64) -> f32 {
+        let turns = f64::from(self.rate * Self::MAX_RATE_HZ) * seconds + f64::from(self.phase);
+        let angle = std::f64::consts::TAU * (turns - libm::floor(turns));
+        self.intensity + self.variance * libm::sin(angle) as f32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::Format;
+    use crate::texture::{decode, encode};
+
+    proptest! {
+        #[test]
+        fn bytes_survive(bytes in any::<[u8; 4]>()) {
+            prop_assert_eq!(CloudTexel::decode(bytes).encode(), bytes);
+            prop_assert_eq!(StarTexel::decode(bytes).encode(), bytes);
+        }
+
+        #[test]
+        fn values_move_by_half_a_step_at_most(photo in 0.0_f32..=1.0, phase in 0.0_f32..=1.0) {
+            // The slack is the rounding of `byte / 255` itself.
+            let half_step = 0.5 / 255.0 + 1e-6;
+            let cloud = CloudTexel { photo, ..CloudTexel::default() };
+            prop_assert!((CloudTexel::decode(cloud.encode()).photo - photo).abs() <= half_step);
+            let star = StarTexel { phase, ..StarTexel::default() };
+            prop_assert!((StarTexel::decode(star.encode()).phase - phase).abs() <= half_step);
+        }
+
+        #[test]
+        fn every_format_keeps_its_promise(value in 0.0_f32..=1.0) {
+            for format in Format::ALL {
+                let back = decode(format, &encode(format, &[value]))[0];
+                prop_assert!((back - value).abs() <= format.quantisation_error(value) + 1e-6, "{:?}", format);
+            }
+        }
+
+        #[test]
+        fn half_floats_keep_what_they_hold(bits in 0_u16..0x7C00) {
+            let value = half::f16::from_bits(bits).to_f32();
+            prop_assert_eq!(decode(Format::Rgba16Float, &encode(Format::Rgba16Float, &[value, -value])), [value, -value]);
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_clamped() {
+        assert_eq!(
+            encode(Format::R8Unorm, &[-1.0, 2.0, f32::NAN, f32::INFINITY]),
+            [0, 255, 0, 255]
+        );
+        let halves = decode(
+            Format::Rgba16Float,
+            &encode(Format::Rgba16Float, &[1e9, -1e9, f32::NAN]),
+        );
+        assert_eq!(halves, [65504.0, -65504.0, 0.0]);
+    }
+
+    #[test]
+    fn a_star_shines_as_its_numbers_say() {
+        let star = StarTexel::decode([100, 128, 50, 64]);
+        let (mean, swing) = (100.0 / 255.0, 50.0 / 255.0);
+        let expected = |seconds: f64| {
+            let turns = 2.0 * seconds + 64.0 / 255.0;
+            mean + swing * (std::f64::consts::TAU * turns).sin()
+        };
+        for seconds in [0.0, 0.1, 1.37, 63.9] {
+            assert!((f64::from(star.intensity_at(seconds)) - expected(seconds)).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_whole_field_repeats_after_its_period() {
+        for rate in [1, 77, 255] {
+            let star = StarTexel::decode([100, rate, 50, 64]);
+            // The rate is a 32-bit float a hair off its 64th; a thousand periods would show it.
+            let apart = star.intensity_at(5.25) - star.intensity_at(5.25 + StarTexel::PERIOD_S);
+            assert!(apart.abs() < 1e-5, "{rate} {apart}");
+        }
+    }
+}
