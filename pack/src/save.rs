@@ -65,10 +65,7 @@ impl Pack {
             file: path.display().to_string(),
             source,
         };
-        let temporary = tempfile::Builder::new()
-            .prefix(".welkin-")
-            .tempdir_in(parent)
-            .map_err(|e| failed(parent, e))?;
+        let temporary = temporary_folder(parent).map_err(|e| failed(parent, e))?;
         for (name, bytes) in &self.files {
             if cancelled() {
                 return Err(PackError::Cancelled);
@@ -89,7 +86,6 @@ impl Pack {
         if cancelled() {
             return Err(PackError::Cancelled);
         }
-        share_with_others(temporary.path()).map_err(|e| failed(temporary.path(), e))?;
         Ok(temporary)
     }
 }
@@ -127,21 +123,17 @@ fn write_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     file.sync_all()
 }
 
-/// Temporary folders are private; a pack is as open as any new folder.
-fn share_with_others(folder: &Path) -> io::Result<()> {
+/// A temporary folder beside the pack's place. It is as open as any new folder, since it becomes the pack.
+fn temporary_folder(parent: &Path) -> io::Result<tempfile::TempDir> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".welkin-");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        let probe = tempfile::Builder::new()
-            .prefix("new-")
-            .make_in(folder, |path| fs::create_dir(path))?;
-        let mode = fs::metadata(probe.path())?.permissions().mode();
-        fs::remove_dir(probe.path())?;
-        fs::set_permissions(folder, fs::Permissions::from_mode(mode))?;
+        // The system takes away what the user's mask says.
+        builder.permissions(fs::Permissions::from_mode(0o777));
     }
-    #[cfg(not(unix))]
-    let _ = folder;
-    Ok(())
+    builder.tempdir_in(parent)
 }
 
 #[cfg(target_os = "linux")]

@@ -1,0 +1,127 @@
+//! `welkin bake`: a recipe becomes a pack, and on request pictures of its channels beside it.
+
+use std::fs::File;
+use std::io::Read;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use anyhow::{Result, anyhow, bail};
+use indicatif::{ProgressBar, ProgressStyle};
+use welkin_baker::{Progress, Recipe, Resolved};
+use welkin_pack::pack::Overwrite;
+use welkin_pack::{Pack, Role};
+
+use super::BakeArgs;
+use super::side::{self, Kind};
+use super::whole::Folder;
+use super::{interrupt, output};
+
+/// A recipe has some dozens of lines; what is larger is something else.
+const MAX_RECIPE_BYTES: u64 = 1 << 20;
+
+pub fn run(args: &BakeArgs) -> Result<()> {
+    verify_places(args)?;
+    if let Some(threads) = args.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.into())
+            .build_global()?;
+    }
+    let recipe = args
+        .recipe
+        .as_deref()
+        .map_or_else(|| Ok(Recipe::default()), read_recipe)?;
+    let resolved = recipe.resolve(args.seed)?;
+    // Photographs are named from the recipe's folder.
+    let base = args.recipe.as_deref().and_then(Path::parent);
+    let begin = |place: &Path| Folder::begin(place, args.force, side::is_ours);
+    let png = args.png.as_deref().map(begin).transpose()?;
+    let exr = args.exr.as_deref().map(begin).transpose()?;
+
+    let pack = with_progress(|on_progress| welkin_baker::bake(&resolved, base, on_progress))?;
+    png.as_ref()
+        .map_or(Ok(()), |folder| add_stored(folder, &pack))?;
+    exr.as_ref()
+        .map_or(Ok(()), |folder| add_linear(folder, &resolved, base))?;
+
+    let overwrite = if args.force {
+        Overwrite::Replace
+    } else {
+        Overwrite::Keep
+    };
+    pack.save(&args.output, overwrite, &interrupt::requested)?;
+    for folder in [png, exr].into_iter().flatten() {
+        folder.publish()?;
+    }
+    let textures = pack.manifest().textures.len();
+    output::message(&format!(
+        "{}: {textures} textures baked",
+        args.output.display()
+    ));
+    Ok(())
+}
+
+/// Each of the three is a folder of its own; two in one place would replace each other.
+fn verify_places(args: &BakeArgs) -> Result<()> {
+    let places = [Some(&args.output), args.png.as_ref(), args.exr.as_ref()];
+    let places: Vec<_> = places.into_iter().flatten().collect();
+    for (i, place) in places.iter().enumerate() {
+        if places[..i].contains(place) {
+            bail!(
+                "{}: named twice; give -o, --png and --exr a folder each",
+                place.display()
+            );
+        }
+    }
+    Ok(())
+}
+
+fn read_recipe(path: &Path) -> Result<Recipe> {
+    let name = path.display().to_string();
+    let unreadable = |e| anyhow!("{name}: cannot be read: {e}; expected a recipe in TOML");
+    let mut text = String::new();
+    let file = File::open(path).map_err(unreadable)?;
+    file.take(MAX_RECIPE_BYTES + 1)
+        .read_to_string(&mut text)
+        .map_err(unreadable)?;
+    if text.len() as u64 > MAX_RECIPE_BYTES {
+        bail!("{name}: is larger than {MAX_RECIPE_BYTES} bytes, expected a recipe in TOML");
+    }
+    Ok(Recipe::parse(&name, &text)?)
+}
+
+/// Shows a bar on a terminal and nothing elsewhere; passes interruptions on.
+fn with_progress<T>(work: impl FnOnce(&(dyn Fn(Progress) -> ControlFlow<()> + Sync)) -> T) -> T {
+    let bar = ProgressBar::new(0);
+    if let Ok(style) = ProgressStyle::with_template("{bar:24} {pos}/{len} {msg}") {
+        bar.set_style(style);
+    }
+    let done = work(&|progress| {
+        bar.set_length(progress.total.into());
+        bar.set_position(progress.done.into());
+        bar.set_message(progress.step);
+        if interrupt::requested() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    bar.finish_and_clear();
+    done
+}
+
+fn add_stored(folder: &Folder, pack: &Pack) -> Result<()> {
+    for role in Role::ALL {
+        if let Some(texture) = pack.texture(role) {
+            side::add(folder, role, &texture.image(0, 0), Kind::Png)?;
+        }
+    }
+    Ok(())
+}
+
+fn add_linear(folder: &Folder, resolved: &Resolved, base: Option<&Path>) -> Result<()> {
+    let sources = with_progress(|on_progress| welkin_baker::sources(resolved, base, on_progress))?;
+    for source in &sources {
+        side::add(folder, source.role, &source.image, Kind::Exr)?;
+    }
+    Ok(())
+}

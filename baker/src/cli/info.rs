@@ -1,0 +1,102 @@
+//! `welkin info`: what is in a pack.
+//!
+//! `--json` prints one object: `folder` is the folder as it was named, `bytes` the size of all textures'
+//! files together, and `manifest` the manifest as docs/pack.schema.json describes it.
+
+use std::fmt::Write;
+use std::process::ExitCode;
+
+use anyhow::Result;
+use serde_json::json;
+use welkin_pack::manifest::{Channel, TextureEntry};
+use welkin_pack::{Manifest, Pack};
+
+use super::PackArgs;
+use super::output;
+
+pub fn run(args: &PackArgs) -> Result<ExitCode> {
+    let pack = Pack::open(&args.pack)?;
+    let manifest = pack.manifest();
+    let text = if args.json {
+        let folder = args.pack.display().to_string();
+        let all = json!({ "folder": folder, "bytes": bytes(manifest), "manifest": manifest });
+        serde_json::to_string_pretty(&all)? + "\n"
+    } else {
+        table(manifest)?
+    };
+    output::result(&text)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn bytes(manifest: &Manifest) -> u64 {
+    manifest
+        .textures
+        .iter()
+        .map(|texture| texture.file_bytes)
+        .sum()
+}
+
+fn table(manifest: &Manifest) -> Result<String> {
+    let mut text = String::new();
+    writeln!(text, "name            {}", manifest.name)?;
+    writeln!(text, "seed            {}", manifest.seed)?;
+    writeln!(text, "format version  {}", manifest.version)?;
+    writeln!(text, "baked by        {}", manifest.baker)?;
+    writeln!(
+        text,
+        "sun at noon     {:.1} degrees",
+        manifest.noon_elevation_rad.to_degrees()
+    )?;
+    writeln!(
+        text,
+        "textures        {}, {} bytes",
+        manifest.textures.len(),
+        bytes(manifest)
+    )?;
+    for input in &manifest.inputs {
+        writeln!(text, "input           {} {}", input.blake3, input.key)?;
+    }
+    for entry in &manifest.textures {
+        texture(&mut text, entry)?;
+    }
+    Ok(text)
+}
+
+fn texture(text: &mut String, entry: &TextureEntry) -> std::fmt::Result {
+    let TextureEntry {
+        width,
+        height,
+        levels,
+        file_bytes,
+        ..
+    } = entry;
+    let (role, format) = (entry.role.name(), entry.format.name());
+    let plural = if *levels == 1 { "level" } else { "levels" };
+    writeln!(
+        text,
+        "\n{role}  {width}x{height} {format}, {levels} {plural}, {file_bytes} bytes in {}",
+        entry.file
+    )?;
+    writeln!(text, "  texels {}", entry.texels_blake3)?;
+    entry.channels.iter().try_for_each(|c| channel(text, c))
+}
+
+fn channel(text: &mut String, channel: &Channel) -> std::fmt::Result {
+    let Channel {
+        name,
+        meaning,
+        unit,
+        range: [low, high],
+        mean,
+        spread,
+    } = channel;
+    let unit = if unit == "1" {
+        String::new()
+    } else {
+        format!(" {unit}")
+    };
+    writeln!(
+        text,
+        "  {name:<10} {low}..{high}{unit}, mean {mean:.4}, spread {spread:.4}: {meaning}"
+    )
+}

@@ -1,0 +1,188 @@
+//! `welkin preview`: every channel of every texture on one labelled sheet.
+
+use anyhow::Result;
+use image::imageops::{self, FilterType};
+use image::{ExtendedColorType, GrayImage, Rgb, RgbImage};
+use welkin_pack::manifest::{Channel, TextureEntry};
+use welkin_pack::role::Filter;
+use welkin_pack::texture::unorm8;
+use welkin_pack::{Image, Manifest, Pack, Role};
+
+use super::PreviewArgs;
+use super::sheet::{self, PANEL, Panel, Section};
+use super::{interrupt, picture, whole};
+
+/// Textures that are read texel by texel are shown in part, each texel this many pixels large.
+const TEXEL_PIXELS: u32 = 2;
+
+/// Brings the brightest sky near to white; the sheet needs no more than that the hues are right.
+const SKY_EXPOSURE: f32 = 1.5;
+
+pub fn run(args: &PreviewArgs) -> Result<()> {
+    let pack = Pack::open(&args.pack)?;
+    let manifest = pack.manifest();
+    let sections: Vec<Section> = manifest
+        .textures
+        .iter()
+        .filter_map(|entry| section(&pack, entry))
+        .collect();
+    interrupt::stop_if_requested()?;
+    let sheet = sheet::lay_out(
+        &format!("pack {}", manifest.name),
+        &summary(manifest),
+        sections,
+    );
+    let png = picture::png(
+        sheet.width,
+        sheet.height,
+        ExtendedColorType::Rgb8,
+        &sheet.rgb,
+    )?;
+    whole::write_file(&args.output, &png)
+}
+
+fn summary(manifest: &Manifest) -> String {
+    let bytes: u64 = manifest
+        .textures
+        .iter()
+        .map(|texture| texture.file_bytes)
+        .sum();
+    let textures = manifest.textures.len();
+    format!(
+        "seed {}, baked by {}, {textures} textures, {} kB. channels are shown from 0 (black) to 1 (white)",
+        manifest.seed,
+        manifest.baker,
+        bytes.div_ceil(1000)
+    )
+}
+
+fn section(pack: &Pack, entry: &TextureEntry) -> Option<Section> {
+    let image = pack.texture(entry.role)?.image(0, 0);
+    let mut panels: Vec<Panel> = entry
+        .channels
+        .iter()
+        .enumerate()
+        .map(|(i, channel)| channel_panel(entry, &image, i, channel))
+        .collect();
+    if entry.role == Role::Sky {
+        panels.insert(0, sky_panel(&image));
+    }
+    let plural = if entry.levels == 1 { "level" } else { "levels" };
+    let (width, height, format) = (entry.width, entry.height, entry.format.name());
+    Some(Section {
+        title: entry.role.name().to_string(),
+        note: format!("{width}x{height} {format}, {} {plural}", entry.levels),
+        panels,
+    })
+}
+
+/// Most stars are so faint that only the cube root of their light shows on paper.
+fn channel_panel(entry: &TextureEntry, image: &Image, index: usize, channel: &Channel) -> Panel {
+    let is_star_light =
+        entry.role == Role::Stars && ["intensity", "variance"].contains(&channel.name.as_str());
+    let curve = if is_star_light {
+        libm::cbrtf
+    } else {
+        |value| value
+    };
+    let grey: Vec<u8> = image
+        .channel(index)
+        .map(|value| unorm8(curve(value)))
+        .collect();
+    // The image has just as many values as texels, so the buffer fits.
+    let grey = GrayImage::from_raw(image.width, image.height, grey).unwrap_or_default();
+    let (shown, part) = match entry.sampler.filter {
+        Filter::Linear => (fit(&grey), String::new()),
+        Filter::Nearest => magnified_corner(&grey),
+    };
+    Panel {
+        title: channel.name.clone(),
+        note: if is_star_light {
+            format!("cube root{part}")
+        } else {
+            statistics(channel) + &part
+        },
+        width: shown.width(),
+        height: shown.height(),
+        pixels: shown.pixels().map(|p| [p.0[0]; 3]).collect(),
+    }
+}
+
+fn statistics(channel: &Channel) -> String {
+    format!("mean {:.3} spread {:.3}", channel.mean, channel.spread)
+}
+
+/// Resized so that the longer side is a panel's.
+fn fit(grey: &GrayImage) -> GrayImage {
+    let longer = grey.width().max(grey.height()).max(1);
+    let [width, height] = [grey.width(), grey.height()].map(|side| (side * PANEL / longer).max(1));
+    imageops::resize(grey, width, height, FilterType::Triangle)
+}
+
+/// The upper left corner with every texel as a square, so that single texels can be seen.
+fn magnified_corner(grey: &GrayImage) -> (GrayImage, String) {
+    let [width, height] = [grey.width(), grey.height()].map(|side| side.min(PANEL / TEXEL_PIXELS));
+    let corner = imageops::crop_imm(grey, 0, 0, width, height).to_image();
+    let shown = imageops::resize(
+        &corner,
+        width * TEXEL_PIXELS,
+        height * TEXEL_PIXELS,
+        FilterType::Nearest,
+    );
+    (shown, format!(" ({width}x{height})"))
+}
+
+/// The sky's radiance as a colour picture: midnight to midnight from left to right, zenith on top.
+fn sky_panel(image: &Image) -> Panel {
+    let colour = |x: u32, y: u32| {
+        let texel = image.texel(x, image.height - 1 - y);
+        Rgb([texel[0], texel[1], texel[2]].map(display))
+    };
+    let picture = RgbImage::from_fn(image.width, image.height, colour);
+    let [width, height] = [PANEL, (PANEL * image.height / image.width).clamp(1, PANEL)];
+    let shown = imageops::resize(&picture, width, height, FilterType::Triangle);
+    Panel {
+        title: "colour".to_string(),
+        note: "time across, zenith on top".to_string(),
+        width,
+        height,
+        pixels: shown.pixels().map(|p| p.0).collect(),
+    }
+}
+
+/// Radiance to an sRGB byte: an exponential shoulder, then the curve of IEC 61966-2-1.
+fn display(radiance: f32) -> u8 {
+    let linear = 1.0 - libm::expf(-SKY_EXPOSURE * radiance.max(0.0));
+    unorm8(if linear <= 0.003_130_8 {
+        12.92 * linear
+    } else {
+        1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_display_curve_goes_from_black_to_white_and_never_back() {
+        assert_eq!(
+            [display(0.0), display(f32::INFINITY), display(-1.0)],
+            [0, 255, 0]
+        );
+        assert!((1..100).all(|i| display(i as f32 * 0.02) >= display((i - 1) as f32 * 0.02)));
+        // Night, dusk and day must be told apart on paper.
+        assert!(display(0.01) > 10 && display(0.1) > 80 && display(1.0) > 200);
+    }
+
+    #[test]
+    fn every_shape_fits_a_panel() {
+        for (width, height) in [(512, 512), (128, 64), (1, 4096), (64, 1)] {
+            let shown = fit(&GrayImage::new(width, height));
+            assert!(
+                shown.width() <= PANEL && shown.height() <= PANEL,
+                "{width}x{height}"
+            );
+        }
+    }
+}

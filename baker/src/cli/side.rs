@@ -1,0 +1,65 @@
+//! One grey image a channel, as files `ROLE.CHANNEL.png` and `ROLE.CHANNEL.exr`.
+
+use std::path::Path;
+
+use anyhow::Result;
+use image::ExtendedColorType;
+use welkin_pack::texture::unorm8;
+use welkin_pack::{Image, Role};
+
+use super::picture;
+use super::whole::Folder;
+
+/// How a channel is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// 8 bits, 0..1 to 0..255; what lies outside is clamped.
+    Png,
+    /// 32-bit floats, unchanged.
+    Exr,
+}
+
+impl Kind {
+    const fn extension(self) -> &'static str {
+        match self {
+            Kind::Png => "png",
+            Kind::Exr => "exr",
+        }
+    }
+}
+
+/// Adds every channel of a role's image to a folder.
+pub fn add(folder: &Folder, role: Role, image: &Image, kind: Kind) -> Result<()> {
+    for (index, channel) in role.spec().channels.iter().enumerate() {
+        let values = image.channel(index);
+        let bytes = match kind {
+            Kind::Png => {
+                let grey: Vec<u8> = values.map(unorm8).collect();
+                picture::png(image.width, image.height, ExtendedColorType::L8, &grey)?
+            }
+            Kind::Exr => picture::grey_exr(image.width, image.height, values.collect())?,
+        };
+        folder.add(
+            &format!("{}.{}.{}", role.name(), channel.name, kind.extension()),
+            &bytes,
+        )?;
+    }
+    Ok(())
+}
+
+/// Whether a file has a name that [`add`] gives.
+pub fn is_ours(path: &Path) -> bool {
+    let Some(name) = path.file_name().and_then(|n| n.to_str()) else {
+        return false;
+    };
+    let ours = |role: Role, kind: Kind| {
+        let channels = role.spec().channels.iter();
+        channels
+            .map(|c| c.name)
+            .any(|c| name == format!("{}.{c}.{}", role.name(), kind.extension()))
+    };
+    path.is_file()
+        && Role::ALL
+            .iter()
+            .any(|&role| ours(role, Kind::Png) || ours(role, Kind::Exr))
+}

@@ -1,0 +1,181 @@
+//! The photo channel: how much cloud a photograph shows, made seamless.
+//!
+//! # Theory
+//! A clear sky is blue and a cloud is grey, so the ratio of red to blue tells cloud from sky
+//! (C. N. Long, J. M. Sabburg, J. Calbo, D. Pages, "Retrieving Cloud Characteristics from Ground-Based
+//! Daytime Color All-Sky Images", J. Atmos. Oceanic Technol. 23, 2006). A JPEG stores colour in coarse
+//! blocks, so here the ratio is blurred and gives the large shapes alone; the fine structure comes from
+//! luminance, divided by its own wide blur so that no uneven light remains.
+//!
+//! The tile is closed by blending a margin with the opposite side. Plain blending averages two
+//! uncorrelated pictures and loses contrast; dividing by `sqrt(w^2 + (1-w)^2)` keeps the variance
+//! (E. Heitz, F. Neyret, "High-Performance By-Example Noise using a Histogram-Preserving Blending
+//! Operator", HPG 2018, eq. 5; the field's nearly Gaussian histogram makes their transform unnecessary).
+//!
+//! # Practice
+//! Most of the channel is near 0 and the thickest parts reach 1. The runtime magnifies it and multiplies
+//! its contrast by up to five, so it ends with a blur that leaves nothing sharper than a few texels.
+
+use welkin_pack::Image;
+
+use crate::error::BakeError;
+use crate::filter::{self, Edge};
+use crate::settings::PhotoSettings;
+
+/// The photograph that is used when a recipe names none; assets-src/SOURCES.md says whose it is.
+pub(crate) const BUILT_IN: &[u8] = include_bytes!("../../../assets-src/photos/god-rays-1024.png");
+
+/// The name that errors give the built-in photograph.
+pub(crate) const BUILT_IN_NAME: &str = "built-in photograph";
+
+/// Share of the tile that is blended with the opposite side.
+const MARGIN: f32 = 0.25;
+
+/// Blur of the red/blue ratio, as a share of the working image: above a JPEG's chroma blocks.
+const RATIO_BLUR: f32 = 0.012;
+
+/// Blur that stands for the uneven light on the clouds, as a share of the working image.
+const LIGHT_BLUR: f32 = 0.11;
+
+/// Blur that measures the local contrast, as a share of the working image.
+const EVEN_BLUR: f32 = 0.12;
+
+/// Weight of the large shapes against the fine structure, which has weight 1.
+const SHAPE_WEIGHT: f32 = 1.2;
+
+/// The last blur: a mix of a narrow and a wide Gaussian, in texels of a tile of 512. The narrow one keeps
+/// the shapes of edges, the wide one takes part of the contrast from everything of a few texels.
+const SMOOTH_TEXELS: [f32; 2] = [1.8, 5.5];
+
+/// Weight of the narrow Gaussian.
+const NARROW_SHARE: f32 = 0.4;
+
+/// Least standard deviation of luminance, 0..1: less is a blank picture, whose noise would be stretched to clouds.
+const LEAST_CONTRAST: f32 = 1.0 / 255.0;
+
+/// Share of the tile left quite clear.
+const CLEAR: f32 = 0.05;
+
+/// Where outliers are bent in, in standard deviations.
+const OUTLIER: f32 = 8.0;
+
+/// A photograph (gamma-encoded red, green, blue) becomes a seamless channel of `settings.size` texels a side.
+pub(crate) fn channel(
+    picture: &Image,
+    file: &str,
+    settings: &PhotoSettings,
+) -> Result<Image, BakeError> {
+    let size = settings.size;
+    let margin = (size as f32 * MARGIN) as u32;
+    let work = size + margin;
+    let [red, green, blue] = [0, 1, 2].map(|c| filter::resample(&square(picture, c), work, work));
+    let luminance = filter::plane(work, work, |x, y| {
+        let i = red.index(x, y);
+        // Rec. 709 luma weights, ITU-R BT.709-6, item 3.2.
+        0.2126 * red.texels[i] + 0.7152 * green.texels[i] + 0.0722 * blue.texels[i]
+    });
+    let (_, contrast) = luminance.mean_and_spread(0);
+    if contrast < LEAST_CONTRAST {
+        return Err(BakeError::Photo {
+            file: file.to_string(),
+            key: "contrast",
+            found: format!("{contrast:.5}"),
+            expected: format!("at least {LEAST_CONTRAST:.5}; choose a picture that shows clouds"),
+        });
+    }
+    let cloud = cloudiness(&red, &blue, &luminance);
+    let tile = close(&cloud, size, margin);
+    let mut channel = soften(&tile);
+    filter::calibrate(&mut channel, CLEAR, OUTLIER, settings.mean);
+    Ok(channel)
+}
+
+/// The middle square of one channel.
+fn square(picture: &Image, channel: usize) -> Image {
+    let side = picture.width.min(picture.height);
+    let (left, top) = ((picture.width - side) / 2, (picture.height - side) / 2);
+    filter::plane(side, side, |x, y| {
+        picture.texels[picture.index(left + x, top + y) + channel]
+    })
+}
+
+/// Large shapes from the ratio of red to blue, fine structure from flattened luminance; mean 0, spread 1.
+fn cloudiness(red: &Image, blue: &Image, luminance: &Image) -> Image {
+    let (width, height) = (red.width, red.height);
+    // A dark texel has no colour worth the name: the floor of 1/32 keeps its ratio near 1.
+    let ratio = filter::plane(width, height, |x, y| {
+        let i = red.index(x, y);
+        (red.texels[i] + 1.0 / 32.0) / (blue.texels[i] + 1.0 / 32.0)
+    });
+    let mut shape = flatten(
+        &filter::wide_blur(&ratio, RATIO_BLUR * width as f32),
+        1.5 * LIGHT_BLUR,
+    );
+    let mut fine = flatten(luminance, LIGHT_BLUR);
+    filter::standardise(&mut shape);
+    filter::standardise(&mut fine);
+    let cloud = filter::plane(width, height, |x, y| {
+        let i = shape.index(x, y);
+        SHAPE_WEIGHT * shape.texels[i] + fine.texels[i]
+    });
+    even_out(&cloud)
+}
+
+fn soften(tile: &Image) -> Image {
+    let scale = tile.width as f32 / 512.0;
+    let [narrow, wide] =
+        SMOOTH_TEXELS.map(|sigma| filter::gaussian_blur(tile, sigma * scale, Edge::Wrap));
+    filter::plane(tile.width, tile.height, |x, y| {
+        let i = tile.index(x, y);
+        NARROW_SHARE * narrow.texels[i] + (1.0 - NARROW_SHARE) * wide.texels[i]
+    })
+}
+
+/// Divides by the local contrast, so that no part of the tile stands out and betrays the repetition.
+fn even_out(cloud: &Image) -> Image {
+    let square = filter::plane(cloud.width, cloud.height, |x, y| {
+        let value = cloud.texels[cloud.index(x, y)];
+        value * value
+    });
+    let variance = filter::wide_blur(&square, EVEN_BLUR * cloud.width as f32);
+    let mut even = filter::plane(cloud.width, cloud.height, |x, y| {
+        let i = cloud.index(x, y);
+        cloud.texels[i] / libm::sqrtf(variance.texels[i].max(0.0) + 1.0)
+    });
+    filter::standardise(&mut even);
+    even
+}
+
+/// An image relative to its wide blur.
+fn flatten(image: &Image, share: f32) -> Image {
+    let light = filter::wide_blur(image, share * image.width as f32);
+    filter::plane(image.width, image.height, |x, y| {
+        let i = image.index(x, y);
+        image.texels[i] / light.texels[i].max(1.0 / 255.0) - 1.0
+    })
+}
+
+/// Cuts a tile of `size` texels whose first `margin` columns and rows are blended with those beyond its far sides.
+fn close(field: &Image, size: u32, margin: u32) -> Image {
+    let columns = filter::plane(size, field.height, |x, y| {
+        let near = field.texels[field.index(x, y)];
+        if x < margin {
+            blend(near, field.texels[field.index(x + size, y)], x, margin)
+        } else {
+            near
+        }
+    });
+    filter::plane(size, size, |x, y| {
+        let near = columns.texels[columns.index(x, y)];
+        if y < margin {
+            blend(near, columns.texels[columns.index(x, y + size)], y, margin)
+        } else {
+            near
+        }
+    })
+}
+
+fn blend(near: f32, far: f32, i: u32, margin: u32) -> f32 {
+    let w = filter::smoothstep(0.0, 1.0, (i as f32 + 0.5) / margin as f32);
+    (w * near + (1.0 - w) * far) / libm::sqrtf(w * w + (1.0 - w) * (1.0 - w))
+}

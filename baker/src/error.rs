@@ -1,0 +1,87 @@
+//! What can go wrong in a bake: every error names the file, what was found and what was expected.
+
+use std::io;
+
+use welkin_pack::PackError;
+
+/// Why a recipe was refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecipeError {
+    /// The text is not TOML, or has a key or a table that no recipe has.
+    #[error("{file}:{line}:{column}: {message}; correct the recipe there")]
+    Syntax {
+        /// The recipe.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column in characters, from 1.
+        column: usize,
+        /// What is wrong, with the keys that are known.
+        message: String,
+    },
+    /// A value has the wrong type or is out of range.
+    #[error("{file}:{line}:{column}: {key} is {found}, expected {expected}")]
+    Value {
+        /// The recipe.
+        file: String,
+        /// Line of the value, from 1.
+        line: usize,
+        /// Column of the value in characters, from 1.
+        column: usize,
+        /// Full key, such as `clouds.size`.
+        key: String,
+        /// The value.
+        found: String,
+        /// What it should be.
+        expected: String,
+    },
+}
+
+/// Why a bake stopped.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BakeError {
+    /// The caller asked to stop. Nothing was written.
+    #[error("cancelled; nothing was written")]
+    Cancelled,
+    /// A photograph could not be read.
+    #[error("{file}: cannot be read: {source}; check `clouds.photo.file` in the recipe")]
+    Read {
+        /// The photograph.
+        file: String,
+        /// The operating system's reason.
+        source: io::Error,
+    },
+    /// A photograph could not be decoded.
+    #[error("{file}: cannot be decoded: {source}; expected a whole PNG or JPEG file")]
+    Decode {
+        /// The photograph.
+        file: String,
+        /// The decoder's reason.
+        source: image::ImageError,
+    },
+    /// A photograph is not fit for use.
+    #[error("{file}: {key} is {found}, expected {expected}")]
+    Photo {
+        /// The photograph.
+        file: String,
+        /// What about it.
+        key: &'static str,
+        /// As it is.
+        found: String,
+        /// As it should be.
+        expected: String,
+    },
+    /// The recipe names a photograph by a relative path, but was not read from a folder.
+    #[error(
+        "{file}: a relative path in a recipe that has no folder; give an absolute path for `clouds.photo.file`"
+    )]
+    NoBase {
+        /// The photograph.
+        file: String,
+    },
+    /// The images were refused as a pack.
+    #[error(transparent)]
+    Pack(#[from] PackError),
+}

@@ -1,0 +1,40 @@
+//! Bakes sky texture packs: a recipe, a photograph and a seed become small textures whose every
+//! channel has a documented meaning.
+//!
+//! The way through is one line: [`Recipe::parse`] reads TOML, [`Recipe::resolve`] fills defaults and
+//! checks ranges, [`sources`] makes one linear float image a texture, and [`bake`] hands those to
+//! `welkin-pack`, which quantises them and builds the mip levels.
+//!
+//! The same recipe, seed and version give the same bytes on every machine and with any number of
+//! threads: every channel draws from its own random stream (`stream.rs`), rows are filled in parallel
+//! but sums are taken in one order, and transcendental functions come from `libm`.
+//!
+//! ```
+//! use std::ops::ControlFlow;
+//! let resolved = welkin_baker::Recipe::default().resolve(Some(7))?;
+//! let images = welkin_baker::sources(&resolved, None, &|_| ControlFlow::Continue(()))?;
+//! assert_eq!(images.len(), 5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod bake;
+mod clouds;
+mod error;
+mod filter;
+mod galaxy;
+mod load;
+mod recipe;
+mod resolve;
+mod settings;
+mod sky;
+mod stars;
+mod stream;
+mod sun;
+
+pub use bake::{Progress, bake, photo_channel, sources};
+pub use error::{BakeError, RecipeError};
+pub use recipe::{DEFAULT_RECIPE, Recipe};
+pub use settings::{
+    CloudSettings, FractalSettings, GalaxySettings, GradientSettings, PhotoSettings, Resolved,
+    SkySettings, StarSettings, SunSettings,
+};

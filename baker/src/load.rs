@@ -1,0 +1,157 @@
+//! Photographs: read with a limit, decoded with limits that are checked before anything is allocated.
+
+use std::fs::File;
+use std::io::{Cursor, Read};
+use std::path::Path;
+
+use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+use welkin_pack::Image;
+
+use crate::error::BakeError;
+
+/// The largest file that is read, in bytes: an 8192x8192 PNG of noise is smaller.
+const MAX_FILE_BYTES: u64 = 256 << 20;
+
+/// The largest side of a photograph, in texels.
+const MAX_SIDE: u32 = 8192;
+
+/// The smallest side of a photograph, in texels: less holds no cloud.
+const MIN_SIDE: u32 = 64;
+
+/// The most that the decoder may allocate, in bytes: one 8192x8192 picture of four 16-bit channels.
+const MAX_DECODED_BYTES: u64 = 512 << 20;
+
+/// Reads a file of at most 256 MiB.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>, BakeError> {
+    let file = path.display().to_string();
+    let failed = |source| BakeError::Read {
+        file: file.clone(),
+        source,
+    };
+    let opened = File::open(path).map_err(failed)?;
+    let mut bytes = Vec::new();
+    opened
+        .take(MAX_FILE_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(failed)?;
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        return Err(unfit(
+            &file,
+            "length",
+            "over 256 MiB",
+            "at most 256 MiB; save it smaller",
+        ));
+    }
+    Ok(bytes)
+}
+
+/// Decodes a PNG or a JPEG to red, green and blue as stored (gamma-encoded), 0..1.
+pub(crate) fn decode(bytes: &[u8], file: &str) -> Result<Image, BakeError> {
+    if bytes.is_empty() {
+        return Err(unfit(file, "length", "0 bytes", "a PNG or JPEG file"));
+    }
+    let format = match image::guess_format(bytes) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
+        _ => {
+            return Err(unfit(
+                file,
+                "format",
+                "unknown",
+                "a PNG or JPEG file; convert it",
+            ));
+        }
+    };
+    if format == ImageFormat::Jpeg && !jpeg_ends(bytes) {
+        return Err(unfit(
+            file,
+            "length",
+            format!("{} bytes without an end marker", bytes.len()),
+            "a whole JPEG file; copy it again",
+        ));
+    }
+    let failed = |source| BakeError::Decode {
+        file: file.to_string(),
+        source,
+    };
+    let reader = || ImageReader::with_format(Cursor::new(bytes), format);
+    let (width, height) = reader().into_dimensions().map_err(failed)?;
+    let fits = |side| (MIN_SIDE..=MAX_SIDE).contains(&side);
+    if !fits(width) || !fits(height) {
+        let expected = format!("{MIN_SIDE} to {MAX_SIDE} texels a side; resize it");
+        return Err(unfit(file, "size", format!("{width}x{height}"), expected));
+    }
+    let mut limited = reader();
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MAX_DECODED_BYTES);
+    limited.limits(limits);
+    Ok(to_image(limited.decode().map_err(failed)?))
+}
+
+/// Whether a JPEG goes on to its end marker: decoders fill what is missing with grey instead of saying so.
+///
+/// ITU-T T.81, annex B: segments with a length, and after a start of scan coded data, in which 0xFF is
+/// followed by 0 or by a restart marker.
+fn jpeg_ends(bytes: &[u8]) -> bool {
+    const START_OF_SCAN: u8 = 0xda;
+    const END: u8 = 0xd9;
+    let mut at = 2;
+    while let (Some(0xff), Some(&marker)) = (bytes.get(at), bytes.get(at + 1)) {
+        match marker {
+            END => return true,
+            0xff => at += 1,
+            _ => {
+                let Some(&[high, low]) = bytes.get(at + 2..at + 4) else {
+                    return false;
+                };
+                at += 2 + usize::from(u16::from_be_bytes([high, low]));
+            }
+        }
+        if marker == START_OF_SCAN {
+            let rest = bytes.get(at..).unwrap_or_default();
+            let is_marker =
+                |pair: &[u8]| pair[0] == 0xff && !matches!(pair[1], 0 | 0xd0..=0xd7 | 0xff);
+            let Some(length) = rest.windows(2).position(is_marker) else {
+                return false;
+            };
+            at += length;
+        }
+    }
+    false
+}
+
+fn to_image(picture: DynamicImage) -> Image {
+    let (width, height) = (picture.width(), picture.height());
+    let texels = match picture {
+        DynamicImage::ImageRgb8(rgb) => rgb
+            .into_raw()
+            .iter()
+            .map(|&v| f32::from(v) / 255.0)
+            .collect(),
+        other => other
+            .into_rgb16()
+            .into_raw()
+            .iter()
+            .map(|&v| f32::from(v) / 65535.0)
+            .collect(),
+    };
+    Image {
+        width,
+        height,
+        channels: 3,
+        texels,
+    }
+}
+
+fn unfit(
+    file: &str,
+    key: &'static str,
+    found: impl ToString,
+    expected: impl ToString,
+) -> BakeError {
+    BakeError::Photo {
+        file: file.to_string(),
+        key,
+        found: found.to_string(),
+        expected: expected.to_string(),
+    }
+}

@@ -1,0 +1,151 @@
+//! The recipe as it is written: TOML with every key optional and unknown keys refused.
+//!
+//! Scalars are kept as whatever TOML value stands there, with its place in the text; `resolve.rs`
+//! checks types and ranges together, so that both kinds of mistake are told in one form.
+
+use std::ops::Range;
+
+use serde::Deserialize;
+use toml::{Spanned, Value};
+
+use crate::error::RecipeError;
+
+/// The recipe that is used when none is given; it spells out every default.
+pub const DEFAULT_RECIPE: &str = include_str!("../../assets-src/recipes/default.toml");
+
+/// The name that errors give the built-in recipe.
+const BUILT_IN: &str = "built-in recipe";
+
+/// A value that may be left out, with its place in the text.
+pub(crate) type Entry = Option<Spanned<Value>>;
+
+/// A parsed recipe: known keys only, nothing checked yet.
+#[derive(Clone, Debug)]
+pub struct Recipe {
+    pub(crate) file: String,
+    pub(crate) text: String,
+    pub(crate) tables: Tables,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Tables {
+    pub name: Entry,
+    pub seed: Entry,
+    pub clouds: Clouds,
+    pub stars: Stars,
+    pub galaxy: Galaxy,
+    pub sky: Sky,
+    pub sun: Sun,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Clouds {
+    pub size: Entry,
+    pub format: Entry,
+    pub photo: Photo,
+    pub noise: Fractal,
+    pub detail: Fractal,
+    pub gradient: Gradient,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Photo {
+    pub file: Entry,
+    pub mean: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Fractal {
+    pub cells: Entry,
+    pub octaves: Entry,
+    pub gain: Entry,
+    pub mean: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Gradient {
+    pub power: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Stars {
+    pub size: Entry,
+    pub count: Entry,
+    pub magnitudes: Entry,
+    pub brightest: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Galaxy {
+    pub size: Entry,
+    pub tilt_deg: Entry,
+    pub azimuth_deg: Entry,
+    pub dust: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Sky {
+    pub width: Entry,
+    pub height: Entry,
+    pub haze: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Sun {
+    pub size: Entry,
+    pub noon_elevation_deg: Entry,
+}
+
+impl Recipe {
+    /// Parses TOML. `file` names the text in errors.
+    ///
+    /// # Errors
+    /// [`RecipeError::Syntax`] where the text is not TOML or has a key that no recipe has.
+    pub fn parse(file: &str, text: &str) -> Result<Recipe, RecipeError> {
+        let tables = toml::from_str(text).map_err(|e| {
+            let (line, column) = line_and_column(text, e.span().unwrap_or(0..0));
+            RecipeError::Syntax {
+                file: file.to_string(),
+                line,
+                column,
+                message: e.message().to_string(),
+            }
+        })?;
+        Ok(Recipe {
+            file: file.to_string(),
+            text: text.to_string(),
+            tables,
+        })
+    }
+}
+
+impl Default for Recipe {
+    /// The built-in recipe, [`DEFAULT_RECIPE`].
+    fn default() -> Recipe {
+        // A test parses it, so the other branch is never taken; it would mean the same defaults.
+        Recipe::parse(BUILT_IN, DEFAULT_RECIPE).unwrap_or(Recipe {
+            file: BUILT_IN.to_string(),
+            text: DEFAULT_RECIPE.to_string(),
+            tables: Tables::default(),
+        })
+    }
+}
+
+/// Line and column, both from 1 and in characters, of the start of a byte range.
+pub(crate) fn line_and_column(text: &str, span: Range<usize>) -> (usize, usize) {
+    let before = text.get(..span.start).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+    (
+        before.matches('\n').count() + 1,
+        before[line_start..].chars().count() + 1,
+    )
+}

@@ -1,0 +1,263 @@
+//! The recipe as it is used: defaults filled, types and ranges checked. Later stages never see TOML.
+
+use std::f32::consts::PI;
+
+use toml::{Spanned, Value};
+use welkin_pack::Format;
+
+use crate::error::RecipeError;
+use crate::recipe::{Entry, Fractal, Recipe, line_and_column};
+use crate::settings::{
+    CloudSettings, FractalSettings, GalaxySettings, GradientSettings, PhotoSettings, Resolved,
+    SkySettings, StarSettings, SunSettings,
+};
+
+impl Recipe {
+    /// Fills defaults and checks every value. `seed` overrides the recipe's.
+    ///
+    /// # Errors
+    /// [`RecipeError::Value`], which names the key, its place, what was found and what was expected.
+    pub fn resolve(&self, seed: Option<u64>) -> Result<Resolved, RecipeError> {
+        let t = &self.tables;
+        let recipe_seed = self.seed(&t.seed)?;
+        let size = self.size("clouds.size", &t.clouds.size, 512, 64, 4096)?;
+        Ok(Resolved {
+            name: self.name(&t.name)?,
+            seed: seed.unwrap_or(recipe_seed),
+            recipe: self.text.clone(),
+            clouds: self.clouds(size)?,
+            stars: self.stars()?,
+            galaxy: self.galaxy()?,
+            sky: SkySettings {
+                width: self.size("sky.width", &t.sky.width, 128, 16, 512)?,
+                height: self.size("sky.height", &t.sky.height, 64, 16, 256)?,
+                haze: self.real("sky.haze", &t.sky.haze, 1.0, 0.0, 10.0)?,
+            },
+            sun: SunSettings {
+                size: self.size("sun.size", &t.sun.size, 128, 16, 1024)?,
+                noon_elevation_rad: self.degrees(
+                    "sun.noon_elevation_deg",
+                    &t.sun.noon_elevation_deg,
+                    60.0,
+                    5.0,
+                    90.0,
+                )?,
+            },
+        })
+    }
+
+    fn clouds(&self, size: u32) -> Result<CloudSettings, RecipeError> {
+        let c = &self.tables.clouds;
+        let noise = FractalSettings {
+            cells: 4,
+            octaves: 5,
+            gain: 0.5,
+            mean: 0.26,
+        };
+        let detail = FractalSettings {
+            cells: 16,
+            octaves: 3,
+            gain: 0.5,
+            mean: 0.5,
+        };
+        Ok(CloudSettings {
+            size,
+            format: self.cloud_format(&c.format)?,
+            photo: PhotoSettings {
+                file: self.text_of("clouds.photo.file", &c.photo.file)?,
+                size,
+                mean: self.real("clouds.photo.mean", &c.photo.mean, 0.16, 0.02, 0.9)?,
+            },
+            noise: self.fractal("clouds.noise", &c.noise, size, noise)?,
+            detail: self.fractal("clouds.detail", &c.detail, size, detail)?,
+            gradient: GradientSettings {
+                power: self.real("clouds.gradient.power", &c.gradient.power, 2.0, 1.0, 2.0)?,
+            },
+        })
+    }
+
+    fn fractal(
+        &self,
+        table: &str,
+        entry: &Fractal,
+        size: u32,
+        default: FractalSettings,
+    ) -> Result<FractalSettings, RecipeError> {
+        let key = |name: &str| format!("{table}.{name}");
+        Ok(FractalSettings {
+            // A cell of fewer than eight texels would not be smooth at the texel.
+            cells: self.integer(
+                &key("cells"),
+                &entry.cells,
+                default.cells.min(size / 8),
+                1,
+                size / 8,
+            )?,
+            octaves: self.integer(&key("octaves"), &entry.octaves, default.octaves, 1, 10)?,
+            gain: self.real(&key("gain"), &entry.gain, default.gain, 0.0, 1.0)?,
+            mean: self.real(&key("mean"), &entry.mean, default.mean, 0.02, 0.9)?,
+        })
+    }
+
+    fn stars(&self) -> Result<StarSettings, RecipeError> {
+        let s = &self.tables.stars;
+        let size = self.size("stars.size", &s.size, 256, 64, 1024)?;
+        // One star to 32 texels: the distance of three texels between stars leaves room for that.
+        let most = size * size / 32;
+        Ok(StarSettings {
+            size,
+            count: self.integer("stars.count", &s.count, 900.min(most), 1, most)?,
+            // Five magnitudes are a factor of 100: the faintest star then keeps two of 255 steps.
+            magnitudes: self.real("stars.magnitudes", &s.magnitudes, 5.0, 0.5, 5.0)?,
+            brightest: self.real("stars.brightest", &s.brightest, 0.8, 0.8, 1.0)?,
+        })
+    }
+
+    fn galaxy(&self) -> Result<GalaxySettings, RecipeError> {
+        let g = &self.tables.galaxy;
+        Ok(GalaxySettings {
+            size: self.size("galaxy.size", &g.size, 128, 32, 1024)?,
+            tilt_rad: self.degrees("galaxy.tilt_deg", &g.tilt_deg, 58.0, 0.0, 90.0)?,
+            azimuth_rad: self.degrees("galaxy.azimuth_deg", &g.azimuth_deg, 35.0, 0.0, 360.0)?,
+            dust: self.real("galaxy.dust", &g.dust, 0.8, 0.0, 1.0)?,
+        })
+    }
+
+    fn name(&self, entry: &Entry) -> Result<String, RecipeError> {
+        let Some(value) = entry else {
+            return Ok("default".to_string());
+        };
+        let fits =
+            |s: &str| !s.is_empty() && s.chars().count() <= 64 && !s.chars().any(char::is_control);
+        match value.get_ref().as_str() {
+            Some(text) if fits(text) => Ok(text.to_string()),
+            _ => Err(self.refuse("name", value, "a text of 1 to 64 characters on one line")),
+        }
+    }
+
+    fn seed(&self, entry: &Entry) -> Result<u64, RecipeError> {
+        let Some(value) = entry else { return Ok(1) };
+        // TOML's integers end at 2^63 - 1; larger seeds can be given to `resolve`.
+        let seed = value
+            .get_ref()
+            .as_integer()
+            .and_then(|i| u64::try_from(i).ok());
+        seed.ok_or_else(|| self.refuse("seed", value, format!("an integer from 0 to {}", i64::MAX)))
+    }
+
+    fn cloud_format(&self, entry: &Entry) -> Result<Format, RecipeError> {
+        let Some(value) = entry else {
+            return Ok(Format::Rgba8Unorm);
+        };
+        match value.get_ref().as_str() {
+            Some("rgba8unorm" | "rgba8") => Ok(Format::Rgba8Unorm),
+            Some("rgba16float" | "rgba16f") => Ok(Format::Rgba16Float),
+            _ => Err(self.refuse("clouds.format", value, "\"rgba8unorm\" or \"rgba16float\"")),
+        }
+    }
+
+    fn text_of(&self, key: &str, entry: &Entry) -> Result<Option<String>, RecipeError> {
+        let Some(value) = entry else { return Ok(None) };
+        match value.get_ref().as_str() {
+            Some(text) if !text.is_empty() => Ok(Some(text.to_string())),
+            _ => Err(self.refuse(key, value, "the path of a PNG or JPEG file, as text")),
+        }
+    }
+
+    fn size(
+        &self,
+        key: &str,
+        entry: &Entry,
+        default: u32,
+        min: u32,
+        max: u32,
+    ) -> Result<u32, RecipeError> {
+        let Some(value) = entry else {
+            return Ok(default);
+        };
+        let size = value
+            .get_ref()
+            .as_integer()
+            .and_then(|i| u32::try_from(i).ok());
+        size.filter(|n| n.is_power_of_two() && (min..=max).contains(n))
+            .ok_or_else(|| self.refuse(key, value, format!("a power of two from {min} to {max}")))
+    }
+
+    fn integer(
+        &self,
+        key: &str,
+        entry: &Entry,
+        default: u32,
+        min: u32,
+        max: u32,
+    ) -> Result<u32, RecipeError> {
+        let Some(value) = entry else {
+            return Ok(default);
+        };
+        let number = value
+            .get_ref()
+            .as_integer()
+            .and_then(|i| u32::try_from(i).ok());
+        number
+            .filter(|n| (min..=max).contains(n))
+            .ok_or_else(|| self.refuse(key, value, format!("an integer from {min} to {max}")))
+    }
+
+    fn real(
+        &self,
+        key: &str,
+        entry: &Entry,
+        default: f32,
+        min: f32,
+        max: f32,
+    ) -> Result<f32, RecipeError> {
+        let Some(value) = entry else {
+            return Ok(default);
+        };
+        let number = match value.get_ref() {
+            Value::Float(f) => Some(*f as f32),
+            Value::Integer(i) => Some(*i as f32),
+            _ => None,
+        };
+        // The comparison also refuses what is not a number.
+        number
+            .filter(|n| (min..=max).contains(n))
+            .ok_or_else(|| self.refuse(key, value, format!("a number from {min} to {max}")))
+    }
+
+    fn degrees(
+        &self,
+        key: &str,
+        entry: &Entry,
+        default: f32,
+        min: f32,
+        max: f32,
+    ) -> Result<f32, RecipeError> {
+        Ok(self.real(key, entry, default, min, max)? * (PI / 180.0))
+    }
+
+    fn refuse(&self, key: &str, value: &Spanned<Value>, expected: impl ToString) -> RecipeError {
+        let (line, column) = line_and_column(&self.text, value.span());
+        RecipeError::Value {
+            file: self.file.clone(),
+            line,
+            column,
+            key: key.to_string(),
+            found: shown(value.get_ref()),
+            expected: expected.to_string(),
+        }
+    }
+}
+
+/// A value as its recipe wrote it, cut where it is long.
+fn shown(value: &Value) -> String {
+    const LONGEST: usize = 60;
+    let text = match value {
+        Value::Table(_) => "a table".to_string(),
+        other => other.to_string(),
+    };
+    if text.chars().count() <= LONGEST {
+        return text;
+    }
+    text.chars().take(LONGEST).chain("...".chars()).collect()
+}

@@ -1,0 +1,118 @@
+//! What a bake needs to know, as plain data: the recipe after `resolve.rs` has checked it.
+
+use welkin_pack::Format;
+
+/// Everything a bake needs to know, checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Resolved {
+    /// Name of the pack.
+    pub name: String,
+    /// Seed of every random stream.
+    pub seed: u64,
+    /// Text of the recipe, for the manifest.
+    pub recipe: String,
+    /// The packed cloud texture.
+    pub clouds: CloudSettings,
+    /// The star data.
+    pub stars: StarSettings,
+    /// The galaxy.
+    pub galaxy: GalaxySettings,
+    /// The day gradient.
+    pub sky: SkySettings,
+    /// The sun.
+    pub sun: SunSettings,
+}
+
+/// The packed cloud texture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CloudSettings {
+    /// Texels a side, a power of two.
+    pub size: u32,
+    /// How it is stored: 8-bit unorm or half floats.
+    pub format: Format,
+    /// Red channel.
+    pub photo: PhotoSettings,
+    /// Green channel.
+    pub noise: FractalSettings,
+    /// Blue channel.
+    pub detail: FractalSettings,
+    /// Alpha channel.
+    pub gradient: GradientSettings,
+}
+
+/// A cloud channel made from a photograph.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PhotoSettings {
+    /// PNG or JPEG file; the built-in photograph if absent.
+    pub file: Option<String>,
+    /// Texels a side, a power of two.
+    pub size: u32,
+    /// Mean that the channel is calibrated to.
+    pub mean: f32,
+}
+
+/// A cloud channel made from periodic fractal noise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FractalSettings {
+    /// Lattice cells of the first octave across the tile.
+    pub cells: u32,
+    /// Octaves; each doubles the cells of the one before.
+    pub octaves: u32,
+    /// Amplitude of an octave as a share of the one before.
+    pub gain: f32,
+    /// Mean that the channel is calibrated to.
+    pub mean: f32,
+}
+
+/// The sunset gradient.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GradientSettings {
+    /// Exponent of the curve: 1 is straight, more gathers the tint on the sun's side.
+    pub power: f32,
+}
+
+/// The star data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StarSettings {
+    /// Texels a side, a power of two.
+    pub size: u32,
+    /// Stars in the texture.
+    pub count: u32,
+    /// Magnitudes from the brightest star to the faintest.
+    pub magnitudes: f32,
+    /// Mean intensity of the brightest star.
+    pub brightest: f32,
+}
+
+/// The galaxy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GalaxySettings {
+    /// Texels a side, a power of two.
+    pub size: u32,
+    /// Inclination of the galaxy's plane to the horizon, in radians.
+    pub tilt_rad: f32,
+    /// Azimuth at which the plane rises, from north towards east, in radians.
+    pub azimuth_rad: f32,
+    /// Strength of the dust lane, 0..1.
+    pub dust: f32,
+}
+
+/// The day gradient.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SkySettings {
+    /// Columns: times of day.
+    pub width: u32,
+    /// Rows: elevations.
+    pub height: u32,
+    /// Aerosol, as a multiple of a clear continental day.
+    pub haze: f32,
+}
+
+/// The sun.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SunSettings {
+    /// Texels a side, a power of two.
+    pub size: u32,
+    /// Elevation of the sun at noon, in radians.
+    pub noon_elevation_rad: f32,
+}

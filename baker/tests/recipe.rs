@@ -1,0 +1,209 @@
+//! Recipes: defaults, and every kind of mistake with its place, key, finding and expectation.
+
+use welkin_baker::{DEFAULT_RECIPE, Recipe, RecipeError, Resolved};
+use welkin_pack::Format;
+
+fn resolve(text: &str) -> Result<Resolved, RecipeError> {
+    Recipe::parse("sky.toml", text)?.resolve(None)
+}
+
+#[test]
+fn the_default_recipe_spells_out_the_defaults() {
+    let spelled = resolve(DEFAULT_RECIPE).unwrap();
+    let mut implied = resolve("").unwrap();
+    implied.recipe.clone_from(&spelled.recipe);
+    assert_eq!(spelled, implied);
+    assert_eq!(Recipe::default().resolve(None).unwrap(), spelled);
+}
+
+#[test]
+fn a_given_seed_overrides_the_recipes() {
+    let recipe = Recipe::parse("sky.toml", "seed = 3").unwrap();
+    assert_eq!(recipe.resolve(None).unwrap().seed, 3);
+    assert_eq!(recipe.resolve(Some(u64::MAX)).unwrap().seed, u64::MAX);
+}
+
+#[test]
+fn unknown_keys_and_broken_text_are_told_with_their_place() {
+    let cases = [
+        ("[clouds]\nsise = 512\n", 2, 1, "sise"),
+        ("[clouds.noise]\n\n  ünits = 3\n", 3, 3, ""),
+        ("seed = 1\n[cloud]\n", 2, 2, "cloud"),
+        ("name = \"a\"\nseed = = 2\n", 2, 8, ""),
+        ("clouds = 3\n", 1, 10, "expected"),
+        ("seed = 1\nseed = 2\n", 2, 1, "duplicate"),
+    ];
+    for (text, line, column, word) in cases {
+        match resolve(text) {
+            Err(RecipeError::Syntax {
+                file,
+                line: l,
+                column: c,
+                message,
+            }) => {
+                assert_eq!(
+                    (file.as_str(), l, c),
+                    ("sky.toml", line, column),
+                    "{text:?}: {message}"
+                );
+                assert!(message.contains(word), "{text:?}: {message}");
+            }
+            other => panic!("{text:?} gave {other:?}"),
+        }
+    }
+    let error = resolve("[stars]\ncuont = 1").unwrap_err().to_string();
+    assert!(
+        error.starts_with("sky.toml:2:1: unknown field `cuont`"),
+        "{error}"
+    );
+}
+
+#[test]
+fn values_of_the_wrong_type_or_out_of_range_are_told_with_key_and_place() {
+    let cases = [
+        ("seed = -1", "seed", "-1", "0 to"),
+        ("seed = 1.5", "seed", "1.5", "integer"),
+        ("name = \"\"", "name", "\"\"", "1 to 64"),
+        ("name = \"a\\nb\"", "name", "a", "one line"),
+        (
+            "clouds.size = 0",
+            "clouds.size",
+            "0",
+            "power of two from 64 to 4096",
+        ),
+        (
+            "clouds.size = 3",
+            "clouds.size",
+            "3",
+            "power of two from 64 to 4096",
+        ),
+        (
+            "clouds.size = 100000",
+            "clouds.size",
+            "100000",
+            "power of two from 64 to 4096",
+        ),
+        (
+            "clouds.size = \"big\"",
+            "clouds.size",
+            "\"big\"",
+            "power of two",
+        ),
+        ("clouds.size = -512", "clouds.size", "-512", "power of two"),
+        (
+            "clouds.format = \"bc1\"",
+            "clouds.format",
+            "\"bc1\"",
+            "rgba16float",
+        ),
+        ("clouds.photo.file = 4", "clouds.photo.file", "4", "path"),
+        (
+            "clouds.photo.mean = nan",
+            "clouds.photo.mean",
+            "nan",
+            "0.02 to 0.9",
+        ),
+        (
+            "clouds.photo.mean = inf",
+            "clouds.photo.mean",
+            "inf",
+            "0.02 to 0.9",
+        ),
+        (
+            "clouds.noise.mean = 1.0",
+            "clouds.noise.mean",
+            "1.0",
+            "0.02 to 0.9",
+        ),
+        (
+            "clouds.noise.cells = 65",
+            "clouds.noise.cells",
+            "65",
+            "1 to 64",
+        ),
+        (
+            "clouds.detail.octaves = 0",
+            "clouds.detail.octaves",
+            "0",
+            "1 to 10",
+        ),
+        (
+            "clouds.detail.gain = 2",
+            "clouds.detail.gain",
+            "2",
+            "0 to 1",
+        ),
+        (
+            "clouds.gradient.power = 3",
+            "clouds.gradient.power",
+            "3",
+            "1 to 2",
+        ),
+        ("stars.size = 96", "stars.size", "96", "power of two"),
+        ("stars.count = 2049", "stars.count", "2049", "1 to 2048"),
+        ("stars.magnitudes = 6", "stars.magnitudes", "6", "0.5 to 5"),
+        (
+            "stars.brightest = 0.1",
+            "stars.brightest",
+            "0.1",
+            "0.8 to 1",
+        ),
+        ("galaxy.size = 1", "galaxy.size", "1", "power of two"),
+        ("galaxy.tilt_deg = 91", "galaxy.tilt_deg", "91", "0 to 90"),
+        ("galaxy.dust = true", "galaxy.dust", "true", "0 to 1"),
+        ("sky.width = 1024", "sky.width", "1024", "16 to 512"),
+        ("sky.haze = -0.5", "sky.haze", "-0.5", "0 to 10"),
+        (
+            "sun.noon_elevation_deg = 0",
+            "sun.noon_elevation_deg",
+            "0",
+            "5 to 90",
+        ),
+        ("sun.size = [128]", "sun.size", "128", "power of two"),
+    ];
+    for (text, key, found, expected) in cases {
+        let text = format!("# a comment\n{text}\n");
+        match resolve(&text) {
+            Err(RecipeError::Value {
+                file,
+                line,
+                column,
+                key: k,
+                found: f,
+                expected: e,
+            }) => {
+                let start = text.lines().nth(1).unwrap().find("= ").unwrap() + 3;
+                assert_eq!(
+                    (file.as_str(), line, column),
+                    ("sky.toml", 2, start),
+                    "{text}"
+                );
+                assert_eq!(k, key);
+                assert!(f.contains(found), "{text}: found {f}");
+                assert!(e.contains(expected), "{text}: expected {e}");
+            }
+            other => panic!("{text} gave {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn formats_have_short_names() {
+    for (name, format) in [
+        ("rgba8unorm", Format::Rgba8Unorm),
+        ("rgba8", Format::Rgba8Unorm),
+        ("rgba16float", Format::Rgba16Float),
+        ("rgba16f", Format::Rgba16Float),
+    ] {
+        let text = format!("clouds.format = \"{name}\"");
+        assert_eq!(resolve(&text).unwrap().clouds.format, format);
+    }
+}
+
+#[test]
+fn small_sizes_have_defaults_that_fit_them() {
+    let text = "[clouds]\nsize = 64\n[stars]\nsize = 64\n";
+    let resolved = resolve(text).unwrap();
+    assert_eq!(resolved.clouds.detail.cells, 8);
+    assert_eq!(resolved.stars.count, 128);
+}
