@@ -102,11 +102,11 @@ impl Recipe {
     fn stars(&self) -> Result<StarSettings, RecipeError> {
         let s = &self.tables.stars;
         let size = self.size("stars.size", &s.size, 256, 64, 1024)?;
-        // One star to 32 texels: the distance of three texels between stars leaves room for that.
+        // One star to 32 texels: the least distance between stars leaves room for that.
         let most = size * size / 32;
         Ok(StarSettings {
             size,
-            count: self.integer("stars.count", &s.count, 900.min(most), 1, most)?,
+            count: self.integer("stars.count", &s.count, 1500.min(most), 1, most)?,
             // Five magnitudes are a factor of 100: the faintest star then keeps two of 255 steps.
             magnitudes: self.real("stars.magnitudes", &s.magnitudes, 5.0, 0.5, 5.0)?,
             brightest: self.real("stars.brightest", &s.brightest, 0.8, 0.8, 1.0)?,

@@ -3,10 +3,11 @@
 //! T. Roden, I. Parberry, "Clouds and Stars", ACE 2005, section 4 and figure 6.
 //!
 //! # Changes versus the paper
-//! Stars lie at random but at least three texels apart, so none touch when they are drawn as points, and
-//! their brightness follows real counts: the number of stars brighter than magnitude m grows as 10^(0.5 m)
-//! over the naked-eye range (it would be 10^(0.6 m) in a uniform space; dust and the disc's thickness make
-//! it less. J. N. Bahcall, R. M. Soneira, "The Universe at Faint Magnitudes. I", ApJS 44, 1980).
+//! Stars lie at random but at least two texels apart, so that no two touch; farther apart they would lie
+//! so evenly that it shows. Their brightness follows real counts: the number of stars brighter than
+//! magnitude m grows as 10^(0.5 m) over the naked-eye range (it would be 10^(0.6 m) in a uniform space; dust
+//! and the disc's thickness make it less. J. N. Bahcall, R. M. Soneira, "The Universe at Faint Magnitudes. I",
+//! ApJS 44, 1980).
 
 use welkin_pack::{Image, StarTexel};
 
@@ -14,7 +15,7 @@ use crate::settings::StarSettings;
 use crate::stream::Stream;
 
 /// Least distance between two stars, in texels, on the tile taken as a torus.
-pub(crate) const MIN_DISTANCE_TEXELS: i64 = 3;
+pub(crate) const MIN_DISTANCE_TEXELS: i64 = 2;
 
 /// Slowest and fastest flicker, in hertz. Above 4 Hz a star would seem to blink.
 const RATES_HZ: [f64; 2] = [0.2, 3.95];

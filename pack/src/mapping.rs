@@ -57,6 +57,10 @@ pub fn galaxy_uv_to_direction(uv: [f32; 2]) -> [f32; 3] {
 /// Side of one tile of the star texture on the plane of the dome, where one unit of area is a steradian.
 pub const STAR_TILE_SIDE: f32 = 1.0;
 
+/// Where the zenith lies on the plane of the tiles. Four tiles around a corner are turns of each other, so no
+/// corner may be overhead, where the symmetry would be seen.
+pub const STAR_TILE_START: [f32; 2] = [0.289, 0.410];
+
 /// A place in the star texture: tile, and texel within its turned copy of the texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StarPlace {
@@ -71,8 +75,9 @@ pub struct StarPlace {
 /// The texture is tiled, and each tile is mirrored and transposed by its own parities, so that bright
 /// stars do not repeat in rows. Stars lie at texel centres and are never filtered across a tile's edge.
 pub fn dome_to_star(dome: [f32; 2]) -> StarPlace {
-    let tile = dome.map(|p| libm::floorf(p / STAR_TILE_SIDE) as i32);
-    let local = [0, 1].map(|i| dome[i] / STAR_TILE_SIDE - tile[i] as f32);
+    let plane = [0, 1].map(|i| (dome[i] + STAR_TILE_START[i]) / STAR_TILE_SIDE);
+    let tile = plane.map(|p| libm::floorf(p) as i32);
+    let local = [0, 1].map(|i| plane[i] - tile[i] as f32);
     StarPlace {
         tile,
         uv: turn(tile, local),
@@ -82,7 +87,7 @@ pub fn dome_to_star(dome: [f32; 2]) -> StarPlace {
 /// The inverse of [`dome_to_star`].
 pub fn star_to_dome(place: StarPlace) -> [f32; 2] {
     let local = turn_back(place.tile, place.uv);
-    [0, 1].map(|i| (place.tile[i] as f32 + local[i]) * STAR_TILE_SIDE)
+    [0, 1].map(|i| (place.tile[i] as f32 + local[i]) * STAR_TILE_SIDE - STAR_TILE_START[i])
 }
 
 fn turn(tile: [i32; 2], uv: [f32; 2]) -> [f32; 2] {
@@ -235,7 +240,13 @@ mod tests {
 
     #[test]
     fn neighbouring_tiles_are_turned_differently() {
-        let uv = |tile: [i32; 2]| dome_to_star([tile[0] as f32 + 0.2, tile[1] as f32 + 0.4]).uv;
+        let uv = |tile: [i32; 2]| {
+            let place = StarPlace {
+                tile,
+                uv: turn(tile, [0.2, 0.4]),
+            };
+            dome_to_star(star_to_dome(place)).uv
+        };
         let mut turns: Vec<[u32; 2]> = Vec::new();
         for tile in (-2..2).flat_map(|x| (-2..2).map(move |y| [x, y])) {
             turns.push(uv(tile).map(|c| (c * 10.0).round() as u32));

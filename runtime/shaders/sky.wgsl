@@ -1,0 +1,26 @@
+// The clear sky: day gradient, light scattered around the sun, haze below the horizon. CPU part: sky.rs.
+struct SkyUniforms {
+    gradient: vec4f, // x: u of the time; y, z: v = y + z * sqrt(sin elevation); w: share of the night sky
+    sun: vec4f,      // xyz: unit direction towards the sun
+    wide: vec4f,     // rgb: radiance of the wide lobe towards the sun; w: its sharpness
+    narrow: vec4f,   // the same for the narrow lobe
+    band: vec4f,     // rgb: radiance of the twilight band on the horizon; w: how fast it fades upwards
+    overcast: vec4f, // rgb: radiance of a shut sky; w: how far the sky is shut
+}
+
+fn sky_radiance(direction: vec3f) -> vec3f {
+    let sky = uniforms.sky;
+    let up = max(direction.y, 0.0);
+    let uv = vec2f(sky.gradient.x, sky.gradient.y + sky.gradient.z * sqrt(up));
+    var radiance = textureSampleLevel(sky_texture, repeat_sampler, uv, 0.0).rgb;
+
+    let from_sun = dot(direction, sky.sun.xyz) - 1.0;
+    radiance += sky.wide.rgb * exp2(sky.wide.w * from_sun);
+    radiance += sky.narrow.rgb * exp2(sky.narrow.w * from_sun);
+    let side = 0.5 + 0.5 * dot(direction.xz, uniforms.clouds.gradient.xy);
+    radiance += sky.band.rgb * (side * side * exp2(-sky.band.w * abs(direction.y)));
+
+    radiance = mix(radiance, sky.overcast.rgb, sky.overcast.w);
+    let below = max(-direction.y, 0.0);
+    return radiance * (GROUND_FLOOR + (1.0 - GROUND_FLOOR) / (1.0 + GROUND_FALL * below));
+}

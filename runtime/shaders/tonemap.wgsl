@@ -1,0 +1,36 @@
+// The last step: tone curve, dither, encoding. Theory and CPU part: tonemap.rs.
+struct TonemapUniforms {
+    display: vec4f, // x: exposure; y: size of the dither, 0 for none; zw: not used
+}
+
+fn tone_curve(radiance: vec3f) -> vec3f {
+    let x = max(radiance, vec3f(0.0));
+    let shoulder = TONE_SHOULDER * x * x;
+    return min((x + shoulder) / (1.0 + TONE_KNEE * x + shoulder), vec3f(1.0));
+}
+
+// IEC 61966-2-1.
+fn srgb_encode(linear: vec3f) -> vec3f {
+    let curve = 1.055 * pow(max(linear, vec3f(1e-8)), vec3f(1.0 / 2.4)) - 0.055;
+    return select(curve, linear * 12.92, linear <= vec3f(0.0031308));
+}
+
+// Interleaved gradient noise, -0.5..0.5: J. Jimenez, "Next Generation Post Processing in Call of Duty:
+// Advanced Warfare", SIGGRAPH 2014.
+fn dither_noise(pixel: vec2f) -> f32 {
+    return fract(52.9829189 * fract(dot(floor(pixel), vec2f(0.06711056, 0.00583715)))) - 0.5;
+}
+
+fn finish(radiance: vec3f, pixel: vec2f) -> vec4f {
+    if OUTPUT == OUTPUT_RADIANCE {
+        return vec4f(radiance, 1.0);
+    }
+    let display = tone_curve(radiance * uniforms.tonemap.display.x);
+    let step = uniforms.tonemap.display.y * dither_noise(pixel);
+    if OUTPUT == OUTPUT_ENCODED {
+        return vec4f(srgb_encode(display) + step, 1.0);
+    }
+    // The hardware encodes. Around a value x a step of the encoding is as wide as its slope there, and
+    // 2 sqrt(x) is the slope of the curve's near relative, the square.
+    return vec4f(display + step * (2.0 * sqrt(display) + abs(step)), 1.0);
+}

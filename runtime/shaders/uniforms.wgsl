@@ -1,0 +1,20 @@
+// Everything that is constant over a frame. Each member's struct lives in the file of its pass;
+// runtime/src/uniforms.rs holds the same structs, and a test compares the two layouts.
+struct Uniforms {
+    camera: CameraUniforms,
+    sky: SkyUniforms,
+    sun: SunUniforms,
+    stars: StarUniforms,
+    galaxy: GalaxyUniforms,
+    clouds: CloudUniforms,
+    tonemap: TonemapUniforms,
+}
+
+@group(0) @binding(0) var<uniform> uniforms: Uniforms;
+@group(0) @binding(1) var repeat_sampler: sampler;
+@group(0) @binding(2) var clamp_sampler: sampler;
+@group(0) @binding(3) var clouds_texture: texture_2d<f32>;
+@group(0) @binding(4) var stars_texture: texture_2d<f32>;
+@group(0) @binding(5) var galaxy_texture: texture_2d<f32>;
+@group(0) @binding(6) var sky_texture: texture_2d<f32>;
+@group(0) @binding(7) var sun_texture: texture_2d<f32>;

@@ -1,0 +1,112 @@
+//! A frame's uniforms: all that is computed once a frame, from pack, parameters, camera and seconds.
+
+use welkin_pack::{Image, Pack, Role, Texture};
+
+use crate::clouds::CloudView;
+use crate::light::Light;
+use crate::uniforms::{CameraUniforms, Uniforms, vec4};
+use crate::{Camera, SkyError, SkyParams, clouds, galaxy, sky, stars, sun, tonemap};
+
+/// What the CPU keeps of a pack between frames.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// Elevation of the sun at noon, in radians.
+    pub noon_elevation_rad: f32,
+    /// The day gradient.
+    pub sky: Image,
+    /// Texels a side of the clouds.
+    pub clouds_texels: u32,
+    /// Means of photo, noise and detail.
+    pub cloud_means: [f32; 3],
+    /// Texels a side and levels of the stars.
+    pub stars: (u32, usize),
+    /// Texels a side and levels of the sun.
+    pub sun: (u32, usize),
+}
+
+impl Facts {
+    /// Reads them from a pack.
+    ///
+    /// # Errors
+    /// [`SkyError::MissingTexture`] if the pack lacks a texture.
+    pub fn new(pack: &Pack) -> Result<Facts, SkyError> {
+        let side = |t: &Texture| (t.width, t.levels.len());
+        Ok(Facts {
+            noon_elevation_rad: pack.manifest().noon_elevation_rad,
+            sky: texture(pack, Role::Sky)?.image(0, 0),
+            clouds_texels: texture(pack, Role::Clouds)?.width,
+            cloud_means: cloud_means(pack)?,
+            stars: side(texture(pack, Role::Stars)?),
+            sun: side(texture(pack, Role::Sun)?),
+        })
+    }
+
+    /// The uniforms of one frame: a pure function. `step` is one step of the target's encoding.
+    ///
+    /// Parameters are clamped, seconds that are not finite are 0.
+    pub fn uniforms(
+        &self,
+        params: &SkyParams,
+        camera: &Camera,
+        seconds: f64,
+        step: f32,
+    ) -> Uniforms {
+        let params = params.clamped();
+        let seconds = if seconds.is_finite() { seconds } else { 0.0 };
+        let light = Light::new(&self.sky, self.noon_elevation_rad, params.time);
+        let (rays, viewport) = (camera.rays(), camera.viewport());
+        let pixel_rad = [
+            2.0 * rays.right.length() / viewport.x,
+            2.0 * rays.up.length() / viewport.y,
+        ];
+        let pixel = pixel_rad[0].max(pixel_rad[1]);
+        let view = CloudView {
+            texels: self.clouds_texels,
+            pixel_rad: pixel,
+            seconds,
+        };
+        let overcast = clouds::overcast(&params, &light, self.cloud_means);
+        Uniforms {
+            camera: camera_uniforms(camera),
+            sky: sky::uniforms(&light, &self.sky, params.time, overcast),
+            sun: sun::uniforms(&light, &rays, self.sun.0, self.sun.1, pixel),
+            stars: stars::uniforms(self.stars.0, self.stars.1, pixel_rad, light.night, seconds),
+            galaxy: galaxy::uniforms(light.night, self.clouds_texels, pixel),
+            clouds: clouds::uniforms(&params, &light, view),
+            tonemap: tonemap::uniforms(&params, step),
+        }
+    }
+}
+
+/// The texture of a role.
+pub(crate) fn texture(pack: &Pack, role: Role) -> Result<&Texture, SkyError> {
+    pack.texture(role).ok_or(SkyError::MissingTexture { role })
+}
+
+/// Means of the first three channels of the clouds, as the manifest gives them.
+fn cloud_means(pack: &Pack) -> Result<[f32; 3], SkyError> {
+    let role = Role::Clouds;
+    let entry = pack
+        .manifest()
+        .texture(role)
+        .ok_or(SkyError::MissingTexture { role })?;
+    let mean = |channel: usize| entry.channels.get(channel).map_or(0.0, |c| c.mean);
+    Ok([mean(0), mean(1), mean(2)])
+}
+
+fn camera_uniforms(camera: &Camera) -> CameraUniforms {
+    let (rays, viewport) = (camera.rays(), camera.viewport());
+    // Rows of the inverse of [right up forward]: a direction's coordinates in that basis are its clip
+    // x, y and w.
+    let inverse = glam::Mat3::from_cols(rays.right, rays.up, rays.forward)
+        .inverse()
+        .transpose();
+    CameraUniforms {
+        right: vec4(rays.right, viewport.x),
+        up: vec4(rays.up, viewport.y),
+        forward: vec4(rays.forward, 0.0),
+        clip_x: vec4(inverse.x_axis, 0.0),
+        clip_y: vec4(inverse.y_axis, 0.0),
+        clip_w: vec4(inverse.z_axis, 0.0),
+    }
+}

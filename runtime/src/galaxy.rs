@@ -1,0 +1,31 @@
+//! The galaxy: one texture over the whole dome (Roden and Parberry, section 4).
+//!
+//! # Changes versus the paper
+//! It lies on Lambert's equal-area dome, like the stars, and is tinted. A texel of its 128x128 is wider than a
+//! degree, so the finer structure of the Milky Way, clouds of stars too faint to be seen, comes from noise and
+//! detail of the cloud texture; their means keep the brightness.
+//!
+//! # Practice
+//! One bilinear and one trilinear texture read a pixel at night.
+
+use glam::Vec3;
+
+use crate::uniforms::{GalaxyUniforms, vec4};
+
+/// Stars and galaxy fade over this sine of the elevation above the horizon: the air takes their light.
+pub const EXTINCTION: f32 = 0.16;
+
+/// Radiance of the brightest place.
+const LIGHT: Vec3 = Vec3::new(0.085, 0.098, 0.135);
+
+/// Tiles of the cloud texture a radian of the dome: its waves are 0.5 to 15 degrees long then.
+pub const GRAIN_SCALE: f32 = 1.9;
+
+/// The galaxy's share of the uniforms. `texels` is the side of the cloud texture, `pixel_rad` a pixel in the
+/// middle of the screen.
+pub fn uniforms(night: f32, texels: u32, pixel_rad: f32) -> GalaxyUniforms {
+    let level = (pixel_rad * GRAIN_SCALE * texels as f32).log2().max(0.0);
+    GalaxyUniforms {
+        light: vec4(LIGHT * night, level),
+    }
+}

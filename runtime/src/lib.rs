@@ -1,0 +1,46 @@
+//! Draws a moving sky from a Welkin pack with wgpu.
+//!
+//! # Theory
+//! T. Roden, I. Parberry, "Clouds and Stars: Efficient Real-Time Procedural Sky Rendering Using 3D
+//! Hardware", ACE 2005. Each pass has its own module and its own WGSL file of the same name, whose
+//! documentation names the equations and what was changed.
+//!
+//! # Practice
+//! One triangle over the screen, one fragment shader, five to ten texture reads a pixel, inside
+//! `Limits::downlevel_webgl2_defaults()`. All work a frame is done in [`Sky::prepare`], which writes one
+//! uniform buffer. A frame is a pure function of pack, parameters, camera and seconds.
+//!
+//! ```no_run
+//! # fn f(device: &wgpu::Device, queue: &wgpu::Queue, pass: &mut wgpu::RenderPass<'_>) -> Result<(), Box<dyn std::error::Error>> {
+//! use welkin_runtime::{Camera, Sky, SkyConfig, SkyParams};
+//! let pack = welkin_pack::Pack::open("packs/default")?;
+//! let config = SkyConfig { target_format: wgpu::TextureFormat::Bgra8UnormSrgb, depth: None, sample_count: 1 };
+//! let mut sky = Sky::new(device, queue, config, &pack)?;
+//! // Each frame, before the pass is begun and then inside it, after the opaque scene:
+//! sky.prepare(queue, &SkyParams::default(), &Camera::looking(3.1, 0.4, 1.0, [1280, 720]), 12.5);
+//! sky.draw(pass);
+//! # Ok(()) }
+//! ```
+
+pub mod camera;
+pub mod clouds;
+pub mod dome;
+pub mod error;
+pub mod frame;
+pub mod galaxy;
+pub mod light;
+pub mod params;
+mod pipeline;
+pub mod renderer;
+pub mod shader;
+pub mod sky;
+pub mod stars;
+pub mod sun;
+pub mod tonemap;
+pub mod uniforms;
+mod upload;
+
+pub use camera::Camera;
+pub use error::SkyError;
+pub use params::SkyParams;
+pub use renderer::{DepthConfig, Sky, SkyConfig};

@@ -1,0 +1,87 @@
+//! Textures of a pack on the device.
+
+use welkin_pack::{Format, Pack, Role, Texture};
+use wgpu::util::{DeviceExt, TextureDataOrder};
+
+use crate::{SkyError, frame};
+
+/// Uploads the texture of a role with all its levels.
+///
+/// # Errors
+/// [`SkyError::MissingTexture`], [`SkyError::TextureTooLarge`].
+pub(crate) fn upload(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    pack: &Pack,
+    role: Role,
+) -> Result<wgpu::TextureView, SkyError> {
+    let texture = frame::texture(pack, role)?;
+    refuse_too_large(role, texture, device.limits().max_texture_dimension_2d)?;
+    let (width, height) = (texture.width, texture.height);
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some(role.name()),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: texture.layers,
+        },
+        mip_level_count: texture.levels.len() as u32,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: format(texture),
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    };
+    let bytes = texture.levels.concat();
+    let uploaded =
+        device.create_texture_with_data(queue, &descriptor, TextureDataOrder::MipMajor, &bytes);
+    Ok(uploaded.create_view(&wgpu::TextureViewDescriptor::default()))
+}
+
+/// `limit` is the device's `max_texture_dimension_2d`.
+fn refuse_too_large(role: Role, texture: &Texture, limit: u32) -> Result<(), SkyError> {
+    let (width, height) = (texture.width, texture.height);
+    if width.max(height) > limit {
+        return Err(SkyError::TextureTooLarge {
+            role,
+            width,
+            height,
+            limit,
+        });
+    }
+    Ok(())
+}
+
+fn format(texture: &Texture) -> wgpu::TextureFormat {
+    match texture.format {
+        Format::R8Unorm => wgpu::TextureFormat::R8Unorm,
+        Format::Rg8Unorm => wgpu::TextureFormat::Rg8Unorm,
+        Format::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
+        Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_texture_over_the_devices_limit_is_refused_with_its_size() {
+        let texture = Texture {
+            format: Format::R8Unorm,
+            shape: welkin_pack::Shape::D2,
+            width: 4096,
+            height: 2,
+            layers: 1,
+            levels: Vec::new(),
+        };
+        assert_eq!(refuse_too_large(Role::Clouds, &texture, 4096), Ok(()));
+        let message = refuse_too_large(Role::Clouds, &texture, 2048)
+            .unwrap_err()
+            .to_string();
+        assert!(
+            message.contains("\"clouds\" is 4096x2") && message.contains("2048"),
+            "{message}"
+        );
+    }
+}

@@ -1,0 +1,45 @@
+//! Twin of camera.wgsl.
+
+use glam::{Vec2, Vec3};
+use welkin_runtime::uniforms::CameraUniforms;
+
+use crate::xyz;
+
+/// Direction of a pixel, not normalised; (0.5, 0.5) is the centre of the upper left pixel.
+pub fn ray_of(camera: &CameraUniforms, pixel: Vec2) -> Vec3 {
+    let ndc = Vec2::new(
+        pixel.x / camera.right[3] * 2.0 - 1.0,
+        1.0 - pixel.y / camera.up[3] * 2.0,
+    );
+    xyz(camera.forward) + xyz(camera.right) * ndc.x + xyz(camera.up) * ndc.y
+}
+
+/// Pixel coordinates of a direction in front of the camera.
+pub fn pixel_of(camera: &CameraUniforms, direction: Vec3) -> Vec2 {
+    let clip = [camera.clip_x, camera.clip_y, camera.clip_w].map(|row| direction.dot(xyz(row)));
+    let ndc = Vec2::new(clip[0], clip[1]) / clip[2];
+    (ndc * Vec2::new(0.5, -0.5) + 0.5) * Vec2::new(camera.right[3], camera.up[3])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use welkin_runtime::{Camera, SkyParams, frame::Facts};
+
+    #[test]
+    fn a_pixel_and_its_ray_are_inverse() {
+        let facts = Facts::new(crate::pack::default_pack()).unwrap();
+        let camera = Camera::looking(2.0, 0.5, 1.2, [320, 200]);
+        let uniforms = facts
+            .uniforms(&SkyParams::default(), &camera, 0.0, 0.0)
+            .camera;
+        for pixel in [
+            Vec2::new(0.5, 0.5),
+            Vec2::new(311.0, 17.25),
+            Vec2::new(160.0, 100.0),
+        ] {
+            let back = pixel_of(&uniforms, ray_of(&uniforms, pixel).normalize());
+            assert!((back - pixel).length() < 1e-3, "{pixel} {back}");
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! A device without a window, and pictures read back from it.
+
+use std::sync::OnceLock;
+
+use welkin_pack::Pack;
+use welkin_runtime::{Camera, Sky, SkyConfig, SkyParams};
+
+/// An open device.
+#[derive(Debug)]
+pub struct Gpu {
+    /// The device, with no more than WebGL2's limits.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+}
+
+/// The device of this test program. Mesa's software Vulkan will do.
+///
+/// # Panics
+/// If there is no adapter: a test without one must not pass.
+pub fn gpu() -> &'static Gpu {
+    static GPU: OnceLock<Gpu> = OnceLock::new();
+    GPU.get_or_init(|| {
+        let instance =
+            wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let adapter =
+            pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
+                .expect("no graphics adapter: install mesa-vulkan-drivers for one in software");
+        let limits = wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits());
+        let descriptor = wgpu::DeviceDescriptor {
+            required_limits: limits,
+            ..Default::default()
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+            .expect("a device with WebGL2's limits");
+        Gpu { device, queue }
+    })
+}
+
+/// A colour target that can be drawn to and read back.
+pub fn target(format: wgpu::TextureFormat, size: [u32; 2], sample_count: u32) -> wgpu::Texture {
+    let copied = if sample_count == 1 {
+        wgpu::TextureUsages::COPY_SRC
+    } else {
+        wgpu::TextureUsages::empty()
+    };
+    gpu().device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("target"),
+        size: wgpu::Extent3d {
+            width: size[0],
+            height: size[1],
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | copied,
+        view_formats: &[],
+    })
+}
+
+/// One pass over `target`, cleared to red (a colour that no sky has), resolved into it where it has more samples.
+pub fn pass(
+    target: &wgpu::Texture,
+    samples: Option<&wgpu::Texture>,
+    depth: Option<(&wgpu::Texture, f32)>,
+    draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
+) {
+    let view =
+        |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let resolved = view(target);
+    let drawn = samples.map_or_else(|| resolved.clone(), view);
+    let depth_view = depth.map(|(texture, clear)| (view(texture), clear));
+    let mut encoder = gpu()
+        .device
+        .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &drawn,
+            depth_slice: None,
+            resolve_target: samples.map(|_| &resolved),
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(wgpu::Color::RED),
+                store: wgpu::StoreOp::Store,
+            },
+        })],
+        depth_stencil_attachment: depth_view.as_ref().map(|(view, clear)| {
+            wgpu::RenderPassDepthStencilAttachment {
+                view,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(*clear),
+                    store: wgpu::StoreOp::Store,
+                }),
+                stencil_ops: None,
+            }
+        }),
+        ..Default::default()
+    });
+    draw(&mut pass);
+    drop(pass);
+    gpu().queue.submit([encoder.finish()]);
+}
+
+/// The texels of a target as RGBA floats, row by row from the top: stored values, 0..1 where it is unorm.
+///
+/// # Panics
+/// On formats other than 8-bit RGBA and Rgba16Float, and if the device is lost.
+pub fn read(target: &wgpu::Texture) -> Vec<[f32; 4]> {
+    let texel_bytes = target
+        .format()
+        .block_copy_size(None)
+        .expect("a colour format");
+    let row_bytes = target.width() * texel_bytes;
+    let stride = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let Gpu { device, queue } = gpu();
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("read back"),
+        size: u64::from(stride) * u64::from(target.height()),
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    let layout = wgpu::TexelCopyBufferLayout {
+        offset: 0,
+        bytes_per_row: Some(stride),
+        rows_per_image: None,
+    };
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let copy = wgpu::TexelCopyBufferInfo {
+        buffer: &buffer,
+        layout,
+    };
+    encoder.copy_texture_to_buffer(target.as_image_copy(), copy, target.size());
+    queue.submit([encoder.finish()]);
+    buffer.slice(..).map_async(wgpu::MapMode::Read, |result| {
+        result.expect("the buffer maps")
+    });
+    device
+        .poll(wgpu::PollType::wait_indefinitely())
+        .expect("the device answers");
+    let mapped = buffer
+        .slice(..)
+        .get_mapped_range()
+        .expect("the buffer is mapped");
+    let rows = mapped
+        .chunks_exact(stride as usize)
+        .map(|row| &row[..row_bytes as usize]);
+    rows.flat_map(|row| row.chunks_exact(texel_bytes as usize))
+        .map(texel)
+        .collect()
+}
+
+fn texel(bytes: &[u8]) -> [f32; 4] {
+    match bytes.len() {
+        4 => [0, 1, 2, 3].map(|c| f32::from(bytes[c]) / 255.0),
+        8 => [0, 1, 2, 3]
+            .map(|c| half::f16::from_le_bytes([bytes[2 * c], bytes[2 * c + 1]]).to_f32()),
+        n => panic!("texels of {n} bytes are not read back here"),
+    }
+}
+
+/// A sky on the test device, without depth or multisampling.
+///
+/// # Panics
+/// If it cannot be made.
+pub fn sky(pack: &Pack, target_format: wgpu::TextureFormat) -> Sky {
+    let config = SkyConfig {
+        target_format,
+        depth: None,
+        sample_count: 1,
+    };
+    Sky::new(&gpu().device, &gpu().queue, config, pack).expect("the sky is made")
+}
+
+/// One frame, read back.
+pub fn render(
+    sky: &mut Sky,
+    format: wgpu::TextureFormat,
+    params: &SkyParams,
+    camera: &Camera,
+    seconds: f64,
+) -> Vec<[f32; 4]> {
+    let target = target(format, camera.viewport_px, 1);
+    sky.prepare(&gpu().queue, params, camera, seconds);
+    pass(&target, None, None, |pass| sky.draw(pass));
+    read(&target)
+}

@@ -1,0 +1,24 @@
+//! CPU twins of the runtime's shader passes, and what tests need to compare them with a GPU.
+//!
+//! A twin is the same computation in plain Rust, written from the same formulas: file for file, name for
+//! name. It reads the pack's own levels and the uniforms that the runtime computed, so that a difference
+//! means that shader and formulas disagree.
+
+pub mod camera;
+pub mod clouds;
+pub mod compare;
+pub mod dome;
+pub mod galaxy;
+pub mod gpu;
+pub mod pack;
+pub mod renderer;
+pub mod sky;
+pub mod stars;
+pub mod sun;
+pub mod texture;
+pub mod tonemap;
+
+/// The first three of four numbers.
+pub(crate) fn xyz(four: [f32; 4]) -> glam::Vec3 {
+    glam::Vec3::new(four[0], four[1], four[2])
+}

@@ -1,0 +1,88 @@
+//! The default pack: sound, small, and refused with any byte flipped.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::ops::ControlFlow;
+
+use welkin_baker::{Recipe, bake};
+use welkin_pack::{Overwrite, Pack, check::check};
+use welkin_tests::pack::default_pack;
+
+/// The whole pack must stay below this, in bytes.
+const MOST_BYTES: usize = 1_600_000;
+
+fn assert_sound(pack: &Pack) {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path().join("pack");
+    pack.save(&folder, Overwrite::Keep, &|| false).unwrap();
+    let report = check(&folder).unwrap();
+    let problems: Vec<String> = report.problems().map(ToString::to_string).collect();
+    assert!(problems.is_empty(), "{problems:#?}");
+}
+
+#[test]
+fn it_is_sound_and_small() {
+    let pack = default_pack();
+    assert_sound(pack);
+    let bytes: usize = pack.files().iter().map(|(_, bytes)| bytes.len()).sum();
+    assert!(bytes < MOST_BYTES, "{bytes} bytes");
+}
+
+#[test]
+fn it_is_sound_with_other_seeds_sizes_and_half_floats() {
+    for text in [
+        "seed = 2",
+        "seed = 9223372036854775807",
+        "[clouds]\nformat = \"rgba16f\"",
+        "[clouds]\nsize = 256\n[stars]\nsize = 512\ncount = 2000\n[galaxy]\nsize = 256",
+        "[sun]\nnoon_elevation_deg = 25",
+    ] {
+        let resolved = Recipe::parse("r.toml", text)
+            .unwrap()
+            .resolve(None)
+            .unwrap();
+        assert_sound(&bake(&resolved, None, &|_| ControlFlow::Continue(())).unwrap());
+    }
+}
+
+#[test]
+fn a_flipped_byte_anywhere_is_refused() {
+    let files = default_pack().files().to_vec();
+    let open = |files: &[(String, Vec<u8>)]| {
+        Pack::from_files("p", |name, _| {
+            Ok(files.iter().find(|(n, _)| n == name).unwrap().1.clone())
+        })
+    };
+    open(&files).unwrap();
+    // Every byte of a tiny pack is flipped in welkin-pack; here, places spread over the real one.
+    for file in 0..files.len() {
+        let length = files[file].1.len();
+        for at in (0..40).map(|i| i * (length - 1) / 39) {
+            let mut damaged = files.clone();
+            damaged[file].1[at] ^= 0x10;
+            let error = open(&damaged).unwrap_err().to_string();
+            assert!(
+                error.contains(&files[file].0),
+                "byte {at} of {}: {error}",
+                files[file].0
+            );
+        }
+    }
+}
+
+#[test]
+fn the_manifest_fits_the_published_schema() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/pack.schema.json");
+    let schema: serde_json::Value = serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap();
+    let (_, manifest) = default_pack().files().last().unwrap();
+    let manifest: serde_json::Value = serde_json::from_slice(manifest).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let errors: Vec<String> = validator
+        .iter_errors(&manifest)
+        .map(|e| e.to_string())
+        .collect();
+    assert!(errors.is_empty(), "{errors:#?}");
+    let mut broken = manifest;
+    broken["textures"][0]["format"] = "srgb".into();
+    assert!(!validator.is_valid(&broken));
+}

@@ -1,0 +1,260 @@
+//! A GPU without a window: chooses an adapter, opens a device, reads its buffers.
+//!
+//! The device is opened with the limits of WebGL2 and the adapter's texture sizes, so that whatever
+//! is drawn here can be drawn in a browser too. `WGPU_BACKEND` (such as `vulkan` or `gl`) and
+//! `WGPU_ADAPTER_NAME` (a part of a name) choose among several adapters, as in many programs built on wgpu.
+
+use welkin_runtime::SkyError;
+
+use crate::frame::Target;
+
+const INSTALL: &str = "install a driver for the GPU, or Mesa's software Vulkan \
+     (on Debian and Ubuntu: apt-get install mesa-vulkan-drivers libvulkan1)";
+
+/// Why nothing could be drawn.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum GpuError {
+    /// There is no adapter at all.
+    #[error("no graphics adapter was found; {INSTALL}")]
+    NoAdapter,
+    /// No adapter has the name that was asked for.
+    #[error(
+        "no graphics adapter has \"{wanted}\" in its name, found {found}; change or unset WGPU_ADAPTER_NAME"
+    )]
+    NoSuchAdapter {
+        /// Value of `WGPU_ADAPTER_NAME`.
+        wanted: String,
+        /// Names of the adapters that there are.
+        found: String,
+    },
+    /// The adapter would not give a device.
+    #[error("{adapter}: gives no device with the limits of WebGL2: {reason}; {INSTALL}")]
+    NoDevice {
+        /// Name of the adapter.
+        adapter: String,
+        /// Its reason.
+        reason: String,
+    },
+    /// The frame is larger than this device can draw or give back.
+    #[error(
+        "the frame is {width}x{height} pixels, expected 1 to {max_side} a side and {max_pixels} in all \
+         on {adapter}; choose another --size"
+    )]
+    FrameSize {
+        /// Pixels a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Most pixels a side.
+        max_side: u32,
+        /// Most pixels in all.
+        max_pixels: u64,
+        /// Name of the adapter.
+        adapter: String,
+    },
+    /// The device stopped working while it drew.
+    #[error(
+        "{adapter}: failed while drawing: {reason}; update its driver, or try another one with WGPU_ADAPTER_NAME"
+    )]
+    Device {
+        /// Name of the adapter.
+        adapter: String,
+        /// Its reason.
+        reason: String,
+    },
+    /// The pack cannot be drawn on this device.
+    #[error(transparent)]
+    Sky(#[from] SkyError),
+}
+
+/// An opened adapter.
+#[derive(Debug)]
+pub struct Gpu {
+    /// Name of the adapter, and the programming interface behind it.
+    pub adapter: String,
+    /// The device.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+}
+
+impl Gpu {
+    /// Opens the adapter that the environment names, or the fastest one.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`], [`GpuError::NoSuchAdapter`], [`GpuError::NoDevice`].
+    pub fn open() -> Result<Gpu, GpuError> {
+        pollster::block_on(async {
+            let wanted = std::env::var("WGPU_ADAPTER_NAME").ok();
+            let adapter = choose_adapter(wanted.as_deref()).await?;
+            open_device(&adapter).await
+        })
+    }
+
+    /// Whether passes can be timed on the GPU itself.
+    pub fn has_timestamps(&self) -> bool {
+        self.device
+            .features()
+            .contains(wgpu::Features::TIMESTAMP_QUERY)
+    }
+
+    /// A texture to draw into and to read back.
+    ///
+    /// # Errors
+    /// [`GpuError::FrameSize`].
+    pub fn target(
+        &self,
+        target: Target,
+        [width, height]: [u32; 2],
+    ) -> Result<wgpu::Texture, GpuError> {
+        let limits = self.device.limits();
+        let max_side = limits.max_texture_dimension_2d;
+        // All of it has to fit into the buffer that it is read back through, rows padded.
+        let max_pixels = limits.max_buffer_size / u64::from(target.bytes_per_pixel());
+        let bytes = || u64::from(target.padded_row(width)) * u64::from(height);
+        let fits = [width, height]
+            .iter()
+            .all(|side| (1..=max_side).contains(side));
+        if !(fits && bytes() <= limits.max_buffer_size) {
+            let adapter = self.adapter.clone();
+            return Err(GpuError::FrameSize {
+                width,
+                height,
+                max_side,
+                max_pixels,
+                adapter,
+            });
+        }
+        Ok(self.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("frame"),
+            size: wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: target.texture_format(),
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        }))
+    }
+
+    /// Waits until everything that was submitted is done.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`].
+    pub fn wait(&self) -> Result<(), GpuError> {
+        let poll = self.device.poll(wgpu::PollType::wait_indefinitely());
+        poll.map(|_| ()).map_err(|e| self.failed(e))
+    }
+
+    /// Bytes of a buffer that was made with [`wgpu::BufferUsages::MAP_READ`], once the GPU has filled it.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`].
+    pub fn read(&self, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
+        let (sender, receiver) = std::sync::mpsc::channel();
+        // The receiver outlives the callback; a send that fails would show below as a missing answer.
+        buffer
+            .slice(..)
+            .map_async(wgpu::MapMode::Read, move |mapped| drop(sender.send(mapped)));
+        self.wait()?;
+        let mapped = receiver.try_recv().map_err(|e| self.failed(e))?;
+        mapped.map_err(|e| self.failed(e))?;
+        let bytes = buffer
+            .slice(..)
+            .get_mapped_range()
+            .map_err(|e| self.failed(e))?
+            .to_vec();
+        buffer.unmap();
+        Ok(bytes)
+    }
+
+    fn failed(&self, reason: impl ToString) -> GpuError {
+        GpuError::Device {
+            adapter: self.adapter.clone(),
+            reason: reason.to_string(),
+        }
+    }
+}
+
+async fn choose_adapter(wanted: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
+    let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+    let instance = wgpu::Instance::new(descriptor);
+    let Some(wanted) = wanted else {
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..Default::default()
+        };
+        return instance
+            .request_adapter(&options)
+            .await
+            .map_err(|_| GpuError::NoAdapter);
+    };
+    let mut adapters = instance.enumerate_adapters(wgpu::Backends::all()).await;
+    let names: Vec<String> = adapters.iter().map(|a| a.get_info().name).collect();
+    if names.is_empty() {
+        return Err(GpuError::NoAdapter);
+    }
+    match names
+        .iter()
+        .position(|n| n.to_lowercase().contains(&wanted.to_lowercase()))
+    {
+        Some(index) => Ok(adapters.swap_remove(index)),
+        None => Err(GpuError::NoSuchAdapter {
+            wanted: wanted.to_string(),
+            found: names.join(", "),
+        }),
+    }
+}
+
+async fn open_device(adapter: &wgpu::Adapter) -> Result<Gpu, GpuError> {
+    let info = adapter.get_info();
+    let name = format!("{} ({})", info.name, info.backend);
+    let descriptor = wgpu::DeviceDescriptor {
+        label: Some("welkin-view"),
+        required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+        required_limits: wgpu::Limits::downlevel_webgl2_defaults()
+            .using_resolution(adapter.limits()),
+        ..Default::default()
+    };
+    match adapter.request_device(&descriptor).await {
+        Ok((device, queue)) => Ok(Gpu {
+            adapter: name,
+            device,
+            queue,
+        }),
+        Err(e) => Err(GpuError::NoDevice {
+            adapter: name,
+            reason: e.to_string(),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_that_the_device_cannot_hold_are_refused() {
+        let gpu = Gpu::open().unwrap();
+        let side = gpu.device.limits().max_texture_dimension_2d;
+        for size in [
+            [0, 1],
+            [1, 0],
+            [side + 1, 1],
+            [1, u32::MAX],
+            [u32::MAX, u32::MAX],
+        ] {
+            let error = gpu.target(Target::Linear, size).unwrap_err();
+            assert!(
+                matches!(error, GpuError::FrameSize { .. }),
+                "{size:?}: {error}"
+            );
+        }
+        assert!(gpu.target(Target::Srgb8, [side, 1]).is_ok());
+    }
+}

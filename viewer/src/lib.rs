@@ -1,0 +1,9 @@
+//! Looks at Welkin skies without a window: frames drawn off screen, saved as pictures, and passes
+//! timed on the GPU. The program `welkin-view` is built on it.
+
+pub mod frame;
+pub mod gpu;
+pub mod headless;
+pub mod reference;
+pub mod save;
+pub mod timing;

@@ -1,0 +1,35 @@
+//! `welkin-view`: draws and times the skies of Welkin packs.
+//!
+//! Exit codes: 0 done, 1 something went wrong (one line `error: ...` says what), 2 wrong usage.
+
+mod bench;
+mod cli;
+mod render;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use cli::{Cli, Command};
+
+const NO_WINDOW: &str = "this version has no window; to look at a pack use \
+     `welkin-view render PACK -o FRAME.png`, and `welkin-view render --help` for the sky's parameters";
+
+fn main() -> ExitCode {
+    let done = match Cli::parse().command {
+        Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Bench(args)) => bench::run(&args),
+        None => return failed(NO_WINDOW, 2),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => failed(&error.to_string(), 1),
+    }
+}
+
+/// Says why on standard error, where a closed pipe is nobody's concern.
+fn failed(message: &str, code: u8) -> ExitCode {
+    writeln!(std::io::stderr(), "error: {message}").ok();
+    ExitCode::from(code)
+}

@@ -1,0 +1,254 @@
+//! The program `welkin-view`, run as its users run it, on a real adapter (software Vulkan will do).
+
+// The lint's exception for tests does not reach their helpers.
+#![allow(clippy::unwrap_used)]
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+use exr::prelude::read_first_rgba_layer_from_file;
+use serde_json::Value;
+use welkin_baker::Recipe;
+use welkin_pack::Overwrite;
+
+/// Small textures: what is tested here is the program, not the beauty of its pictures.
+const RECIPE: &str = "[clouds]\nsize = 64\n[stars]\nsize = 64\ncount = 50\n[galaxy]\nsize = 32\n";
+
+/// A pack, baked once for all tests.
+fn pack() -> &'static Path {
+    static PACK: OnceLock<PathBuf> = OnceLock::new();
+    PACK.get_or_init(|| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("welkin-view-pack");
+        let resolved = Recipe::parse("small", RECIPE)
+            .and_then(|r| r.resolve(None))
+            .unwrap();
+        let pack = welkin_baker::bake(&resolved, None, &|_| ControlFlow::Continue(())).unwrap();
+        pack.save(&folder, Overwrite::Replace, &|| false).unwrap();
+        folder
+    })
+}
+
+fn view(args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_welkin-view"));
+    command.args(args);
+    command
+}
+
+fn run(mut command: Command) -> Output {
+    command.output().expect("the program starts")
+}
+
+fn failed(output: &Output, code: i32, parts: &[&str]) {
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{stderr}");
+    assert!(
+        stderr.contains("error: ") && !stderr.contains("panicked"),
+        "{stderr}"
+    );
+    for part in parts {
+        assert!(stderr.contains(part), "no {part:?} in {stderr}");
+    }
+}
+
+fn render(file: &Path, args: &[&str]) -> Vec<u8> {
+    let mut command = view(&["render", "--size", "70x40"]);
+    command.arg(pack()).arg("-o").arg(file).args(args);
+    let output = run(command);
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(output.stdout.is_empty());
+    std::fs::read(file).unwrap()
+}
+
+#[test]
+fn a_frame_is_the_same_every_time_and_follows_its_options() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("frame.png");
+    let noon = render(&file, &[]);
+    let picture = image::load_from_memory(&noon).unwrap().into_rgb8();
+    assert_eq!(picture.dimensions(), (70, 40));
+    // By day the sky is bright and bluer than it is red.
+    let sum = picture.pixels().fold([0_u64; 3], |sum, p| {
+        [0, 1, 2].map(|i| sum[i] + u64::from(p.0[i]))
+    });
+    assert!(sum[2] > sum[0] && sum[2] > 70 * 40 * 100, "{sum:?}");
+    assert_eq!(render(&file, &[]), noon);
+    let options = [
+        ["--cover", "0.9"],
+        ["--height", "0.1"],
+        ["--density", "0.9"],
+        ["--time", "0"],
+        ["--upper", "1"],
+        ["--azimuth", "90"],
+        ["--elevation", "60"],
+        ["--fov", "30"],
+        ["--at", "60"],
+    ];
+    for option in options {
+        assert_ne!(render(&file, &option), noon, "{option:?}");
+    }
+    // The last two say nothing alone: red needs a low sun, and speed needs time.
+    let evening = [
+        "--time",
+        "0.74",
+        "--azimuth",
+        "270",
+        "--elevation",
+        "10",
+        "--at",
+        "60",
+    ];
+    let low_sun = render(&file, &evening);
+    for option in [["--sunset", "1"], ["--speed", "1"]] {
+        assert_ne!(
+            render(&file, &[&evening[..], &option].concat()),
+            low_sun,
+            "{option:?}"
+        );
+    }
+    assert_eq!(folder.path().read_dir().unwrap().count(), 1);
+}
+
+#[test]
+fn an_exr_holds_finite_radiance_of_the_same_view() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("frame.exr");
+    render(&file, &[]);
+    let image = read_first_rgba_layer_from_file(
+        &file,
+        |_, _| Vec::new(),
+        |pixels: &mut Vec<[f32; 3]>, _, (r, g, b, _): (f32, f32, f32, f32)| pixels.push([r, g, b]),
+    )
+    .unwrap();
+    let pixels = image.layer_data.channel_data.pixels;
+    assert_eq!(pixels.len(), 70 * 40);
+    assert!(pixels.iter().flatten().all(|v| v.is_finite() && *v >= 0.0));
+    // Radiance is not squeezed into 0..1: a day's sky and its sun go beyond, or come well below white.
+    assert!(pixels.iter().any(|p| p[2] > 0.05));
+}
+
+#[test]
+fn the_benchmark_tells_every_pass_and_its_ratio() {
+    let mut command = view(&["bench", "--frames", "3", "--size", "64x48", "--json"]);
+    command.arg(pack());
+    let output = run(command);
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["size"], serde_json::json!([64, 48]));
+    assert_eq!(report["frames"], 3);
+    let passes = report["passes"].as_array().unwrap();
+    let names: Vec<&str> = passes.iter().map(|p| p["name"].as_str().unwrap()).collect();
+    assert_eq!(
+        names,
+        [
+            "sky, noon",
+            "sky, sunset",
+            "sky, night",
+            "one sample",
+            "four samples"
+        ]
+    );
+    for pass in passes {
+        let [p10, median, p90, ratio] =
+            ["p10_ms", "median_ms", "p90_ms", "ratio"].map(|key| pass[key].as_f64().unwrap());
+        assert!(
+            0.0 < p10 && p10 <= median && median <= p90 && ratio > 0.0,
+            "{pass}"
+        );
+    }
+    assert_eq!(passes[4]["ratio"], 1.0);
+
+    let mut command = view(&["bench", "--frames", "1", "--size", "8x8"]);
+    command.arg(pack());
+    let table = String::from_utf8(run(command).stdout).unwrap();
+    assert!(
+        names.iter().all(|name| table.contains(name)) && table.contains("1.00x"),
+        "{table}"
+    );
+}
+
+#[test]
+fn what_cannot_be_drawn_is_told_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let attempt = |pack: &Path, file: &str, more: &[&str]| {
+        let mut command = view(&["render"]);
+        command
+            .arg(pack)
+            .arg("-o")
+            .arg(folder.path().join(file))
+            .args(more);
+        run(command)
+    };
+    failed(
+        &attempt(pack(), "frame.gif", &[]),
+        1,
+        &["frame.gif", ".png", ".exr"],
+    );
+    failed(
+        &attempt(&folder.path().join("none"), "frame.png", &[]),
+        1,
+        &["none"],
+    );
+    failed(
+        &attempt(pack(), "none/frame.png", &["--size", "4x4"]),
+        1,
+        &["none/frame.png", "cannot be written"],
+    );
+    failed(
+        &attempt(pack(), "frame.png", &["--size", "32768x32768"]),
+        1,
+        &["32768x32768", "--size"],
+    );
+    failed(
+        &attempt(pack(), "frame.png", &["--method", "sprites"]),
+        2,
+        &["--method", "packed"],
+    );
+    failed(
+        &attempt(pack(), "frame.png", &["--cover", "2"]),
+        2,
+        &["--cover", "from 0 to 1"],
+    );
+    assert_eq!(folder.path().read_dir().unwrap().count(), 0);
+}
+
+#[test]
+fn without_an_adapter_it_says_what_to_install() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = view(&["render", "-o"]);
+    command.arg(folder.path().join("frame.png")).arg(pack());
+    // The Vulkan loader then finds no driver.
+    let nothing = folder.path().join("none");
+    command
+        .env("WGPU_BACKEND", "vulkan")
+        .env("VK_ICD_FILENAMES", &nothing)
+        .env("VK_DRIVER_FILES", &nothing);
+    command.env_remove("WGPU_ADAPTER_NAME");
+    failed(
+        &run(command),
+        1,
+        &["no graphics adapter", "mesa-vulkan-drivers"],
+    );
+
+    let mut command = view(&["bench"]);
+    command.arg(pack()).env("WGPU_ADAPTER_NAME", "abacus");
+    failed(&run(command), 1, &["abacus", "WGPU_ADAPTER_NAME"]);
+}
+
+#[test]
+fn the_window_is_not_here_yet() {
+    failed(
+        &run(view(&["packs/default"])),
+        2,
+        &["no window", "welkin-view render"],
+    );
+}
