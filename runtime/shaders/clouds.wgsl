@@ -66,7 +66,7 @@ fn cloud_layer(direction: vec3f) -> vec4f {
     var radiance = cloud_light(tinted);                              // line 28
 
     alpha = alpha * alpha * (1.0 + CLOUD_EDGE) / (alpha + CLOUD_EDGE);
-    if clouds.shape.w > 0.0 {
+    if UPPER_LAYER {
         let uv = hit.plane * clouds.upper.xy + clouds.upper.zw;
         let wisp = cloud_sample(uv, level + clouds.levels.y).g;
         let veil = clouds.shape.w * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, wisp);

@@ -3,7 +3,7 @@
 fn fs_sky(in: Varyings) -> @location(0) vec4f {
     let direction = in.ray * inverseSqrt(dot(in.ray, in.ray));
     var radiance = sky_radiance(direction);
-    if uniforms.sky.gradient.w > 0.0 && direction.y > 0.0 {
+    if NIGHT && direction.y > 0.0 {
         let dome = direction_to_dome(direction);
         let galaxy = galaxy_brightness(dome);
         let night = galaxy * uniforms.galaxy.light.rgb + star_radiance(dome, in.position.xy, galaxy);

@@ -15,6 +15,62 @@ pub(crate) const TEXTURES: [(u32, Role); 5] = [
     (7, Role::Sun),
 ];
 
+/// What a frame needs beyond the clear sky and one layer of clouds.
+///
+/// By day no star shows, and the upper layer is mostly off. A branch over a uniform would do for a GPU; a
+/// software rasteriser runs both of its sides, and takes twice the time. So each of the four is a pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Variant {
+    /// Stars and galaxy.
+    pub night: bool,
+    /// The thin upper layer.
+    pub upper_layer: bool,
+}
+
+impl Variant {
+    /// Every variant, at its [`Variant::index`].
+    pub const ALL: [Variant; 4] = [
+        Variant {
+            night: false,
+            upper_layer: false,
+        },
+        Variant {
+            night: true,
+            upper_layer: false,
+        },
+        Variant {
+            night: false,
+            upper_layer: true,
+        },
+        Variant {
+            night: true,
+            upper_layer: true,
+        },
+    ];
+
+    /// The least that draws a frame.
+    pub fn of(uniforms: &Uniforms) -> Variant {
+        Variant {
+            night: uniforms.sky.gradient[3] > 0.0,
+            upper_layer: uniforms.clouds.shape[3] > 0.0,
+        }
+    }
+
+    /// Place in [`Variant::ALL`].
+    pub fn index(self) -> usize {
+        usize::from(self.night) + 2 * usize::from(self.upper_layer)
+    }
+
+    /// The shader's overridable constants.
+    fn constants(self) -> [(&'static str, f64); 2] {
+        let number = |on: bool| f64::from(u8::from(on));
+        [
+            ("NIGHT", number(self.night)),
+            ("UPPER_LAYER", number(self.upper_layer)),
+        ]
+    }
+}
+
 /// Looks at the configuration and chooses the shader's variant.
 ///
 /// # Errors
@@ -85,14 +141,15 @@ pub(crate) fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout 
     })
 }
 
-/// Compiles the shader and builds the pipeline, for the triangle over the screen or for the dome's mesh.
-pub(crate) fn pipeline(
+/// Compiles the shader and builds a pipeline for each variant, for the triangle over the screen or for the
+/// dome's mesh.
+pub(crate) fn pipelines(
     device: &wgpu::Device,
     config: &SkyConfig,
     text: &str,
     layout: &wgpu::BindGroupLayout,
     dome_mesh: bool,
-) -> wgpu::RenderPipeline {
+) -> [wgpu::RenderPipeline; 4] {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("sky"),
         source: wgpu::ShaderSource::Wgsl(text.into()),
@@ -120,29 +177,34 @@ pub(crate) fn pipeline(
     } else {
         ("vs_screen", &[][..], wgpu::PrimitiveState::default())
     };
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("sky"),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some(entry),
-            compilation_options: Default::default(),
-            buffers,
-        },
-        primitive,
-        depth_stencil: config.depth.map(depth_state),
-        multisample: wgpu::MultisampleState {
-            count: config.sample_count,
-            ..Default::default()
-        },
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("fs_sky"),
-            compilation_options: Default::default(),
-            targets: &[Some(config.target_format.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
+    Variant::ALL.map(|variant| {
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("sky"),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some(entry),
+                compilation_options: Default::default(),
+                buffers,
+            },
+            primitive,
+            depth_stencil: config.depth.map(depth_state),
+            multisample: wgpu::MultisampleState {
+                count: config.sample_count,
+                ..Default::default()
+            },
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("fs_sky"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &variant.constants(),
+                    ..Default::default()
+                },
+                targets: &[Some(config.target_format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
     })
 }
 
@@ -158,5 +220,17 @@ fn depth_state(depth: DepthConfig) -> wgpu::DepthStencilState {
         }),
         stencil: wgpu::StencilState::default(),
         bias: wgpu::DepthBiasState::default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_variant_stands_at_its_index() {
+        for (index, variant) in Variant::ALL.into_iter().enumerate() {
+            assert_eq!(variant.index(), index);
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The sky on a device: what is made once, what is written each frame, what is drawn.
 //!
 //! # Practice
-//! [`Sky`] owns its pipeline, five textures and one uniform buffer, a few hundred kilobytes in all. Draw
+//! [`Sky`] owns its pipelines, five textures and one uniform buffer, a few hundred kilobytes in all. Draw
 //! after the opaque scene: pixels that the scene covers then cost nothing.
 
 use welkin_pack::Pack;
@@ -9,7 +9,7 @@ use wgpu::util::DeviceExt;
 
 use crate::dome;
 use crate::frame::Facts;
-use crate::pipeline::{TEXTURES, bind_group_layout, pipeline, shader_text};
+use crate::pipeline::{TEXTURES, Variant, bind_group_layout, pipelines, shader_text};
 use crate::uniforms::Uniforms;
 use crate::upload::upload;
 use crate::{Camera, SkyError, SkyParams, tonemap};
@@ -38,7 +38,9 @@ pub struct DepthConfig {
 /// A sky on a device.
 #[derive(Debug)]
 pub struct Sky {
-    pipeline: wgpu::RenderPipeline,
+    pipelines: [wgpu::RenderPipeline; 4],
+    /// The one that the prepared frame needs.
+    variant: Variant,
     bind_group: wgpu::BindGroup,
     buffer: wgpu::Buffer,
     facts: Facts,
@@ -55,7 +57,7 @@ struct DomeBuffers {
 }
 
 impl Sky {
-    /// Uploads the textures of a pack and builds the pipeline. The sky is drawn as one triangle over the screen.
+    /// Uploads the textures of a pack and builds the pipelines. The sky is drawn as one triangle over the screen.
     ///
     /// # Errors
     /// See [`SkyError`]; the device is not touched before the configuration has been looked at.
@@ -93,7 +95,7 @@ impl Sky {
         let facts = Facts::new(pack)?;
         let text = shader_text(&config, device.features())?;
         let layout = bind_group_layout(device);
-        let pipeline = pipeline(device, &config, &text, &layout, dome_step_deg.is_some());
+        let pipelines = pipelines(device, &config, &text, &layout, dome_step_deg.is_some());
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("sky uniforms"),
             size: size_of::<Uniforms>() as u64,
@@ -104,7 +106,8 @@ impl Sky {
         let step = tonemap::step(config.target_format);
         let dome = dome_step_deg.map(|step| dome_buffers(device, step));
         Ok(Sky {
-            pipeline,
+            pipelines,
+            variant: Variant::ALL[0],
             bind_group,
             buffer,
             facts,
@@ -124,12 +127,13 @@ impl Sky {
         seconds: f64,
     ) {
         let uniforms = self.facts.uniforms(params, camera, seconds, self.step);
+        self.variant = Variant::of(&uniforms);
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&uniforms));
     }
 
     /// Draws the prepared frame into a pass whose attachments are as the configuration said.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(&self.pipelines[self.variant.index()]);
         pass.set_bind_group(0, &self.bind_group, &[]);
         match &self.dome {
             None => pass.draw(0..3, 0..1),
