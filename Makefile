@@ -24,11 +24,11 @@ sky: gpu-tools ## Bake the default pack, check it, and draw pictures of it into 
 	mkdir -p out
 	$(WELKIN) preview $(PACK) -o out/preview.png
 	$(VIEW) render $(PACK) -o out/noon.png $(FRAME) --time 0.5 --azimuth 90 --elevation 28
-	$(VIEW) render $(PACK) -o out/figure2.png $(FRAME) --cover 0.69 --height 1.0 --density 0 --sunset 0.72 --speed 0.1 --time 0.35 --azimuth 200 --elevation 25
-	$(VIEW) render $(PACK) -o out/figure4.png $(FRAME) --cover 0.57 --height 0.52 --density 0.84 --sunset 0.43 --speed 0 --time 0.72 --azimuth 250 --elevation 20
-	$(VIEW) render $(PACK) -o out/sunset.png $(FRAME) --time 0.742 --sunset 1 --cover 0.55 --azimuth 270 --elevation 14
-	$(VIEW) render $(PACK) -o out/night.png $(FRAME) --time 0 --cover 0.35 --azimuth 120 --elevation 35
-	$(VIEW) render $(PACK) -o out/overcast.png $(FRAME) --time 0.45 --cover 1 --density 0.6 --azimuth 30 --elevation 20
+	$(VIEW) render $(PACK) -o out/figure2.png $(FRAME) --cover 0.69 --height 1.0 --density 0 --sunset 0.72 --speed 0.1 --time 0.35 --azimuth 130 --elevation 28
+	$(VIEW) render $(PACK) -o out/figure4.png $(FRAME) --cover 0.57 --height 0.52 --density 0.84 --sunset 0.43 --speed 0 --time 0.72 --azimuth 250 --elevation 26
+	$(VIEW) render $(PACK) -o out/sunset.png $(FRAME) --time 0.742 --sunset 1 --cover 0.62 --height 0.6 --azimuth 270 --elevation 20
+	$(VIEW) render $(PACK) -o out/night.png $(FRAME) --time 0 --cover 0.35 --azimuth 72 --elevation 42 --fov 75
+	$(VIEW) render $(PACK) -o out/overcast.png $(FRAME) --time 0.45 --cover 1 --density 0.6 --azimuth 30 --elevation 26
 	@echo "pictures are in out/, the pack is in $(PACK)"
 
 test: gpu-tools node-tools ## Run every test, and formatting, lints and docs without a warning

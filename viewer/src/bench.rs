@@ -33,11 +33,11 @@ const CAMERA_FOV_DEG: f32 = 60.0;
 /// The pass that ratios are told of.
 const YARDSTICK: &str = "four samples";
 
-/// Name, time of day, and azimuth of the view in degrees: towards the sun, so that it is paid for.
-const SKIES: [(&str, f32, f32); 3] = [
-    ("sky, noon", 0.5, 180.0),
-    ("sky, sunset", 0.74, 270.0),
-    ("sky, night", 0.0, 180.0),
+/// Name, time of day, sunset, and azimuth of the view in degrees: towards the sun, so that it is paid for.
+const SKIES: [(&str, f32, f32, f32); 3] = [
+    ("sky, noon", 0.5, 0.0, 180.0),
+    ("sky, sunset", 0.74, 1.0, 270.0),
+    ("sky, night", 0.0, 0.0, 180.0),
 ];
 
 /// Name and entry point of the reference passes.
@@ -123,7 +123,7 @@ fn measure(gpu: &Gpu, pack: &Pack, args: &BenchArgs) -> Result<Report> {
 /// Every sky has its own uniforms, so nothing is uploaded between the passes.
 fn passes(gpu: &Gpu, pack: &Pack, size: [u32; 2]) -> Result<Vec<(&'static str, Pass)>> {
     let mut passes = Vec::new();
-    for (name, time, azimuth_deg) in SKIES {
+    for (name, time, sunset, azimuth_deg) in SKIES {
         let mut sky = new_sky(gpu, pack, Target::Srgb8)?;
         let camera = Camera::looking(
             azimuth_deg.to_radians(),
@@ -135,6 +135,7 @@ fn passes(gpu: &Gpu, pack: &Pack, size: [u32; 2]) -> Result<Vec<(&'static str, P
             &gpu.queue,
             &SkyParams {
                 time,
+                sunset,
                 ..SkyParams::default()
             },
             &camera,
