@@ -35,9 +35,8 @@ test: gpu-tools node-tools ## Run every test, and formatting, lints and docs wit
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
-	$(CARGO) test --workspace --locked
 	$(CARGO) build --release --locked -p welkin-baker
-	WELKIN_RELEASE=$(CURDIR)/$(WELKIN) $(CARGO) test --locked -p welkin-tests --test determinism -- --ignored
+	WELKIN_RELEASE=$(CURDIR)/$(WELKIN) $(CARGO) test --workspace --locked -- --include-ignored
 	if $(CARGO) tree --locked -e normal,build -p welkin-baker | grep -q ' wgpu '; then echo "the baker must not need wgpu"; exit 1; fi
 
 check: ## Compile and lint, without running anything

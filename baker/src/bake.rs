@@ -41,7 +41,7 @@ pub fn bake(
     base: Option<&Path>,
     progress: OnProgress,
 ) -> Result<Pack, BakeError> {
-    let photo = read_photo(&resolved.clouds.photo, base)?;
+    let photo = photo_of(&resolved.clouds.photo, base)?;
     let total = STEPS.len() as u32 + 1;
     let step = |step, done| advance(progress, step, done, total);
     let sources = make(resolved, &photo, &step)?;
@@ -68,7 +68,7 @@ pub fn sources(
     base: Option<&Path>,
     progress: OnProgress,
 ) -> Result<Vec<Source>, BakeError> {
-    let photo = read_photo(&resolved.clouds.photo, base)?;
+    let photo = photo_of(&resolved.clouds.photo, base)?;
     let total = STEPS.len() as u32;
     let step = |step, done| advance(progress, step, done, total);
     let sources = make(resolved, &photo, &step)?;
@@ -96,7 +96,7 @@ struct Photo {
     bytes: std::borrow::Cow<'static, [u8]>,
 }
 
-fn read_photo(settings: &PhotoSettings, base: Option<&Path>) -> Result<Photo, BakeError> {
+fn photo_of(settings: &PhotoSettings, base: Option<&Path>) -> Result<Photo, BakeError> {
     let Some(file) = &settings.file else {
         return Ok(Photo {
             file: photo::BUILT_IN_NAME.to_string(),
@@ -108,7 +108,7 @@ fn read_photo(settings: &PhotoSettings, base: Option<&Path>) -> Result<Photo, Ba
         Some(folder) => folder.join(file),
         None => return Err(BakeError::NoBase { file: file.clone() }),
     };
-    let bytes = load::read(&path)?;
+    let bytes = load::read_photo(&path)?;
     Ok(Photo {
         file: path.display().to_string(),
         bytes: bytes.into(),

@@ -33,6 +33,7 @@ mod sun;
 
 pub use bake::{Progress, bake, photo_channel, sources};
 pub use error::{BakeError, RecipeError};
+pub use load::read_photo;
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
     CloudSettings, FractalSettings, GalaxySettings, GradientSettings, PhotoSettings, Resolved,

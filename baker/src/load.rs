@@ -21,8 +21,11 @@ const MIN_SIDE: u32 = 64;
 /// The most that the decoder may allocate, in bytes: one 8192x8192 picture of four 16-bit channels.
 const MAX_DECODED_BYTES: u64 = 512 << 20;
 
-/// Reads a file of at most 256 MiB.
-pub(crate) fn read(path: &Path) -> Result<Vec<u8>, BakeError> {
+/// Reads the bytes of a photograph: a file of at most 256 MiB.
+///
+/// # Errors
+/// [`BakeError::Read`], or [`BakeError::Photo`] if it is larger.
+pub fn read_photo(path: &Path) -> Result<Vec<u8>, BakeError> {
     let file = path.display().to_string();
     let failed = |source| BakeError::Read {
         file: file.clone(),

@@ -172,15 +172,9 @@ impl Recipe {
         min: u32,
         max: u32,
     ) -> Result<u32, RecipeError> {
-        let Some(value) = entry else {
-            return Ok(default);
-        };
-        let size = value
-            .get_ref()
-            .as_integer()
-            .and_then(|i| u32::try_from(i).ok());
-        size.filter(|n| n.is_power_of_two() && (min..=max).contains(n))
-            .ok_or_else(|| self.refuse(key, value, format!("a power of two from {min} to {max}")))
+        let fits = |n: u32| n.is_power_of_two() && (min..=max).contains(&n);
+        let expected = format!("a power of two from {min} to {max}");
+        self.number(key, entry, default, fits, expected)
     }
 
     fn integer(
@@ -191,16 +185,28 @@ impl Recipe {
         min: u32,
         max: u32,
     ) -> Result<u32, RecipeError> {
+        let fits = |n: u32| (min..=max).contains(&n);
+        let expected = format!("an integer from {min} to {max}");
+        self.number(key, entry, default, fits, expected)
+    }
+
+    /// A whole number that fits, or the default where the recipe says nothing.
+    fn number(
+        &self,
+        key: &str,
+        entry: &Entry,
+        default: u32,
+        fits: impl Fn(u32) -> bool,
+        expected: String,
+    ) -> Result<u32, RecipeError> {
         let Some(value) = entry else {
             return Ok(default);
         };
-        let number = value
-            .get_ref()
-            .as_integer()
-            .and_then(|i| u32::try_from(i).ok());
-        number
-            .filter(|n| (min..=max).contains(n))
-            .ok_or_else(|| self.refuse(key, value, format!("an integer from {min} to {max}")))
+        let found = value.get_ref().as_integer();
+        found
+            .and_then(|i| u32::try_from(i).ok())
+            .filter(|&n| fits(n))
+            .ok_or_else(|| self.refuse(key, value, expected))
     }
 
     fn real(

@@ -1,7 +1,7 @@
 //! Named random streams: one a channel, so that a change of one channel never moves another.
 
+use rand::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 /// A stream of random numbers that depends on the recipe's seed and on a channel's name alone.
 #[derive(Clone, Debug)]

@@ -36,5 +36,5 @@ pub use pack::Pack;
 #[cfg(feature = "write")]
 pub use pack::{Overwrite, PackInfo, Source};
 pub use role::Role;
-pub use texel::{CloudTexel, StarTexel};
+pub use texel::{CloudTexel, GalaxyTexel, SkyTexel, StarTexel, SunTexel};
 pub use texture::Texture;

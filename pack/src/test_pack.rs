@@ -141,7 +141,8 @@ fn sky(width: u32, height: u32) -> Image {
     for y in 0..height {
         for x in 0..width {
             let turn = std::f32::consts::TAU * x as f32 / width as f32;
-            let day = (0.5 - 0.5 * libm::cosf(turn)).powi(2);
+            let half = 0.5 - 0.5 * libm::cosf(turn);
+            let day = half * half;
             let low = 1.0 - y as f32 / height as f32;
             let light = 0.01 + day * (0.4 + 0.5 * low);
             image.texel_mut(x, y).copy_from_slice(&[

@@ -3,7 +3,8 @@
 //! Every field is the value a shader reads from a unorm texture, 0..1. The ranges that turn them into
 //! physical units are in [`crate::role`] and in every manifest.
 
-use crate::texture::unorm8;
+use crate::Format;
+use crate::texture::{encode, unorm8};
 
 /// A texel of the role `clouds`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,19 +86,103 @@ impl StarTexel {
     }
 }
 
+/// A texel of the role `galaxy`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GalaxyTexel {
+    /// Brightness, 0 dark to 1 the brightest.
+    pub brightness: f32,
+}
+
+impl GalaxyTexel {
+    /// The nearest R8 texel.
+    pub fn encode(self) -> [u8; 1] {
+        [unorm8(self.brightness)]
+    }
+
+    /// Reads an R8 texel.
+    pub fn decode(bytes: [u8; 1]) -> GalaxyTexel {
+        let [brightness] = bytes.map(|b| f32::from(b) / 255.0);
+        GalaxyTexel { brightness }
+    }
+}
+
+/// A texel of the role `sky`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SkyTexel {
+    /// Radiance of the clear sky, linear BT.709; 1 is the white of a sunlit cloud at noon.
+    pub radiance: [f32; 3],
+    /// Share of the night sky that shows through, 0..1.
+    pub night: f32,
+}
+
+impl SkyTexel {
+    /// The nearest RGBA16F texel, little-endian.
+    pub fn encode(self) -> [u8; 8] {
+        let [r, g, b] = self.radiance;
+        let mut bytes = [0; 8];
+        bytes.copy_from_slice(&encode(Format::Rgba16Float, &[r, g, b, self.night]));
+        bytes
+    }
+
+    /// Reads an RGBA16F texel.
+    pub fn decode(bytes: [u8; 8]) -> SkyTexel {
+        let [r, g, b, night] =
+            [0, 2, 4, 6].map(|i| half::f16::from_le_bytes([bytes[i], bytes[i + 1]]).to_f32());
+        SkyTexel {
+            radiance: [r, g, b],
+            night,
+        }
+    }
+}
+
+/// A texel of the role `sun`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SunTexel {
+    /// The disc, 0 outside to 1 in its middle.
+    pub disc: f32,
+    /// The glow, 0 at the sides to 1 in the middle.
+    pub glow: f32,
+}
+
+impl SunTexel {
+    /// The nearest RG8 texel.
+    pub fn encode(self) -> [u8; 2] {
+        [self.disc, self.glow].map(unorm8)
+    }
+
+    /// Reads an RG8 texel.
+    pub fn decode(bytes: [u8; 2]) -> SunTexel {
+        let [disc, glow] = bytes.map(|b| f32::from(b) / 255.0);
+        SunTexel { disc, glow }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::Format;
-    use crate::texture::{decode, encode};
+    use crate::texture::decode;
 
     proptest! {
         #[test]
         fn bytes_survive(bytes in any::<[u8; 4]>()) {
             prop_assert_eq!(CloudTexel::decode(bytes).encode(), bytes);
             prop_assert_eq!(StarTexel::decode(bytes).encode(), bytes);
+            let [a, b, ..] = bytes;
+            prop_assert_eq!(GalaxyTexel::decode([a]).encode(), [a]);
+            prop_assert_eq!(SunTexel::decode([a, b]).encode(), [a, b]);
+        }
+
+        #[test]
+        fn halves_survive(bits in any::<[u16; 4]>()) {
+            // Infinities and what is not a number are not stored.
+            let bits = bits.map(|b| if b & 0x7C00 == 0x7C00 { b & 0x83FF } else { b });
+            let mut bytes = [0; 8];
+            for (to, from) in bytes.chunks_exact_mut(2).zip(bits) {
+                to.copy_from_slice(&from.to_le_bytes());
+            }
+            prop_assert_eq!(SkyTexel::decode(bytes).encode(), bytes);
         }
 
         #[test]
@@ -144,7 +229,7 @@ mod tests {
         let (mean, swing) = (100.0 / 255.0, 50.0 / 255.0);
         let expected = |seconds: f64| {
             let turns = 2.0 * seconds + 64.0 / 255.0;
-            mean + swing * (std::f64::consts::TAU * turns).sin()
+            mean + swing * libm::sin(std::f64::consts::TAU * turns)
         };
         for seconds in [0.0, 0.1, 1.37, 63.9] {
             assert!((f64::from(star.intensity_at(seconds)) - expected(seconds)).abs() < 1e-6);
