@@ -108,7 +108,7 @@ fn without_an_end() {
     let run = run(welkin()
         .args(["photo", "/dev/zero", "-o"])
         .arg(desk.path("tile.png")));
-    run.failed(1, &["/dev/zero", "larger than"]);
+    run.failed(1, &["/dev/zero", "over 256 MiB"]);
     assert!(desk.names().is_empty());
 }
 
