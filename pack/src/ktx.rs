@@ -9,13 +9,14 @@
 //! values, as the current revision of the specification asks for compressed files too.
 
 use ktx2::dfd::{Basic, Block};
-use ktx2::{Header, Reader, SupercompressionScheme};
+use ktx2::{Header, ParseError, Reader, SupercompressionScheme};
 
 use crate::limits::{MAX_LAYERS, MAX_SIDE, MAX_TEXTURE_BYTES};
 use crate::texture::Texture;
 use crate::{Format, PackError, Shape};
 
-const ORIENTATION_KEY: &str = "KTXorientation";
+/// With the NUL that ends every key.
+const ORIENTATION_KEY: &[u8] = b"KTXorientation\0";
 /// Rows go down, columns go right: what [`Texture`] holds.
 const ORIENTATION: &[u8] = b"rd\0";
 
@@ -29,10 +30,16 @@ pub use write::encode;
 pub fn decode(file: &str, bytes: &[u8]) -> Result<Texture, PackError> {
     let bad =
         |key: &str, found: String, expected: &str| PackError::value(file, key, found, expected);
-    let reader = Reader::new(bytes).map_err(|e| bad("container", e.to_string(), "a KTX2 file"))?;
-    let mut texture = describe(file, &reader.header())?;
-    verify_descriptor(file, &reader, texture.format)?;
-    verify_key_values(file, &reader)?;
+    let not_ktx2 = |e: ParseError| bad("container", e.to_string(), "a KTX2 file");
+    let start = bytes
+        .first_chunk()
+        .ok_or_else(|| not_ktx2(ParseError::UnexpectedEnd))?;
+    let header = Header::from_bytes(start).map_err(not_ktx2)?;
+    let mut texture = describe(file, &header)?;
+    verify_descriptor(file, bytes, &header, texture.format)?;
+    verify_key_values(file, bytes, &header)?;
+    // The crate's reader trusts the two sections above more than a hostile file deserves, so it comes last.
+    let reader = Reader::new(bytes).map_err(not_ktx2)?;
     let levels = reader.header().level_count as usize;
     let total: u64 = (0..levels)
         .map(|level| texture.level_bytes(level) as u64)
@@ -136,19 +143,23 @@ fn describe(file: &str, header: &Header) -> Result<Texture, PackError> {
     })
 }
 
-fn verify_descriptor<D: AsRef<[u8]>>(
+/// Compares the descriptor with the one of the format, byte by byte. `bytesPlane` may be zero throughout,
+/// as older revisions of the specification asked of compressed files.
+fn verify_descriptor(
     file: &str,
-    reader: &Reader<D>,
+    bytes: &[u8],
+    header: &Header,
     format: Format,
 ) -> Result<(), PackError> {
-    let (expected, type_size) = descriptor(file, format)?;
-    let same = match reader.dfd_blocks() {
-        [Block::Basic(found)] => without_planes(found) == without_planes(&expected),
-        _ => false,
-    };
-    if !same {
-        let found = format!("{:?}", reader.dfd_blocks());
-        let expected = format!("one basic block for linear {}", format.name());
+    let (block, type_size) = descriptor(file, format)?;
+    let expected = descriptor_section(&block);
+    let mut unsized_block = block;
+    unsized_block.bytes_planes = [0; 8];
+    let index = &header.index;
+    let found = section(bytes, index.dfd_byte_offset, index.dfd_byte_length);
+    if found != Some(&expected[..]) && found != Some(&descriptor_section(&unsized_block)[..]) {
+        let found = found.map_or("outside the file".to_string(), |f| format!("{f:02x?}"));
+        let expected = format!("{expected:02x?}: linear {}", format.name());
         return Err(PackError::value(
             file,
             "data format descriptor",
@@ -156,40 +167,59 @@ fn verify_descriptor<D: AsRef<[u8]>>(
             expected,
         ));
     }
-    if reader.header().type_size != type_size {
+    if header.type_size != type_size {
         return Err(PackError::value(
             file,
             "typeSize",
-            reader.header().type_size,
+            header.type_size,
             type_size,
         ));
     }
     Ok(())
 }
 
-/// Bytes of a descriptor without `bytesPlane`, which older revisions of the specification set to 0.
-fn without_planes(block: &Basic) -> Vec<u8> {
-    let mut block = block.clone();
-    block.bytes_planes = [0; 8];
-    block.to_vec()
+/// The descriptor's section: its length, and one basic block.
+fn descriptor_section(block: &Basic) -> Vec<u8> {
+    let block = Block::Basic(block.clone()).to_vec();
+    [&(block.len() as u32 + 4).to_le_bytes()[..], &block].concat()
 }
 
-fn verify_key_values<D: AsRef<[u8]>>(file: &str, reader: &Reader<D>) -> Result<(), PackError> {
-    match reader
-        .key_value_data()
-        .find(|(key, _)| *key == ORIENTATION_KEY)
-    {
-        Some((_, value)) if value != ORIENTATION => {
+fn section(bytes: &[u8], offset: u32, length: u32) -> Option<&[u8]> {
+    bytes.get(offset as usize..)?.get(..length as usize)
+}
+
+/// Walks the key/value data: every entry must lie inside it, and the orientation, if said, must be ours.
+fn verify_key_values(file: &str, bytes: &[u8], header: &Header) -> Result<(), PackError> {
+    let bad = |key: &str, found: String, expected: &str| {
+        Err(PackError::value(file, key, found, expected))
+    };
+    let index = &header.index;
+    let Some(mut rest) = section(bytes, index.kvd_byte_offset, index.kvd_byte_length) else {
+        let found = format!(
+            "{} bytes at {}",
+            index.kvd_byte_length, index.kvd_byte_offset
+        );
+        return bad("key/value data", found, "inside the file");
+    };
+    while let Some((length, after)) = rest.split_first_chunk() {
+        let length = u32::from_le_bytes(*length) as usize;
+        let Some(entry) = after.get(..length) else {
+            return bad(
+                "key/value data",
+                format!("an entry of {length} bytes"),
+                "inside the section",
+            );
+        };
+        if let Some(value) = entry
+            .strip_prefix(ORIENTATION_KEY)
+            .filter(|value| *value != ORIENTATION)
+        {
             let found = String::from_utf8_lossy(value).into_owned();
-            Err(PackError::value(
-                file,
-                ORIENTATION_KEY,
-                found,
-                "rd: right and down",
-            ))
+            return bad("KTXorientation", found, "rd: right and down");
         }
-        _ => Ok(()),
+        rest = after.get(length.next_multiple_of(4)..).unwrap_or_default();
     }
+    Ok(())
 }
 
 /// Inflates one level, or nothing if it is damaged or holds more than `expected` bytes.
@@ -241,8 +271,7 @@ mod write {
             .collect::<Result<Vec<_>, _>>()
             .map_err(|e| PackError::value(file, "levels", e, "compressed texels"))?;
         let (basic, type_size) = descriptor(file, texture.format)?;
-        let block = Block::Basic(basic).to_vec();
-        let dfd = [&(block.len() as u32 + 4).to_le_bytes()[..], &block].concat();
+        let dfd = descriptor_section(&basic);
         let kvd = key_values(writer);
         let dfd_start = Header::LENGTH + levels.len() * LevelIndex::LENGTH;
         let header = Header {
@@ -300,8 +329,8 @@ mod write {
     fn key_values(writer: &str) -> Vec<u8> {
         let writer = [writer.as_bytes(), b"\0"].concat();
         let mut bytes = Vec::new();
-        for (key, value) in [(ORIENTATION_KEY, ORIENTATION), ("KTXwriter", &writer)] {
-            let entry = [key.as_bytes(), b"\0", value].concat();
+        for (key, value) in [(ORIENTATION_KEY, ORIENTATION), (b"KTXwriter\0", &writer)] {
+            let entry = [key, value].concat();
             bytes.extend((entry.len() as u32).to_le_bytes());
             bytes.extend(entry);
             bytes.resize(bytes.len().next_multiple_of(4), 0);
