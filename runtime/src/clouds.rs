@@ -24,7 +24,7 @@
 //! # Practice
 //! Three trilinear reads; one bilinear with sunset above 0, one more trilinear with the upper layer on.
 
-use glam::{DVec2, Vec2, Vec3};
+use glam::{DVec2, Vec2, Vec3, Vec4};
 
 use crate::SkyParams;
 use crate::light::{Light, luminance, smoothstep};
@@ -100,8 +100,7 @@ pub fn uniforms(params: &SkyParams, light: &Light, view: CloudView) -> CloudUnif
     let level =
         |scale: f64| (f64::from(view.pixel_rad) * scale * f64::from(view.texels)).log2() as f32;
     let half_texel = 0.5 / view.texels as f32;
-    // How far the sky is shut.
-    let closing = smoothstep(CLOSING, 1.0, params.cover);
+    let closing = closing(params.cover);
     let sun = sun_azimuth(light.sun_direction);
     CloudUniforms {
         photo: [scale as f32, photo_x, photo_y, level(scale)],
@@ -140,21 +139,23 @@ pub fn uniforms(params: &SkyParams, light: &Light, view: CloudView) -> CloudUnif
 
 /// Radiance of a shut sky far away, where single clouds cannot be told apart, and how far the sky is shut.
 ///
-/// It is that of a place where photo, noise and detail have their means.
-pub fn overcast(params: &SkyParams, light: &Light, means: [f32; 3]) -> [f32; 4] {
+/// It is the light of a place where photo, noise and detail have their means, by the same lines as the
+/// shader's; line 19 is left out, since detail does not pierce a shut sky.
+pub fn overcast(clouds: &CloudUniforms, cover: f32, means: [f32; 3]) -> [f32; 4] {
     let [photo, noise, detail] = means;
-    let closing = smoothstep(CLOSING, 1.0, params.cover);
+    let [cut, stretch, density, _] = clouds.shape;
+    let [sunlight, ambient] = [clouds.sunlight, clouds.ambient].map(|l| Vec4::from(l).truncate());
     let amount = photo + noise * (1.0 - photo);
-    let cut = 1.0 - params.cover - OVERCAST * closing;
-    let alpha = ((amount - cut) / params.cover.max(0.05)).max(0.0);
-    let beyond = amount + detail * (1.0 - amount) + params.density * alpha * 2.0 - 1.0;
+    let alpha = ((amount - cut) * stretch).max(0.0);
+    let beyond = amount + detail * (1.0 - amount) + density * alpha * 2.0 - 1.0;
     let grey = 1.0 + beyond - 0.75 * (beyond + (beyond * beyond + FOLD * FOLD).sqrt());
     let bright = CORE + (1.0 - CORE) * grey.clamp(0.0, 1.0);
-    let sunlight = light.sunlight * (1.0 - SHADE * closing);
-    vec4(
-        bright * (bright * sunlight + ambient(light.skylight)),
-        closing,
-    )
+    vec4(bright * (bright * sunlight + ambient), closing(cover))
+}
+
+/// How far the sky is shut, 0..1.
+fn closing(cover: f32) -> f32 {
+    smoothstep(CLOSING, 1.0, cover)
 }
 
 /// A texture coordinate in 0..1: reduced in 64 bits, since seconds have no end.

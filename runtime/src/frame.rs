@@ -65,14 +65,15 @@ impl Facts {
             pixel_rad: pixel,
             seconds,
         };
-        let overcast = clouds::overcast(&params, &light, self.cloud_means);
+        let clouds = clouds::uniforms(&params, &light, view);
+        let overcast = clouds::overcast(&clouds, params.cover, self.cloud_means);
         Uniforms {
             camera: camera_uniforms(camera),
             sky: sky::uniforms(&light, &self.sky, params.time, overcast),
             sun: sun::uniforms(&light, &rays, self.sun.0, self.sun.1, pixel),
             stars: stars::uniforms(self.stars.0, self.stars.1, pixel_rad, light.night, seconds),
             galaxy: galaxy::uniforms(light.night, self.clouds_texels, pixel),
-            clouds: clouds::uniforms(&params, &light, view),
+            clouds,
             tonemap: tonemap::uniforms(&params, step),
         }
     }

@@ -174,6 +174,39 @@ mod tests {
         );
     }
 
+    /// A shut sky's horizon is the twin's cloud where every channel has its mean.
+    #[test]
+    fn a_shut_sky_far_away_is_the_mean_cloud() {
+        let pack = crate::pack::default_pack();
+        let facts = welkin_runtime::frame::Facts::new(pack).expect("the pack has every role");
+        let [photo, noise, detail] = facts.cloud_means;
+        let camera = welkin_runtime::Camera::looking(0.0, 0.3, 1.0, [64, 64]);
+        for (time, density) in [(0.5, 0.0), (0.3, 0.6), (0.0, 1.0)] {
+            let params = welkin_runtime::SkyParams {
+                cover: 1.0,
+                density,
+                time,
+                ..Default::default()
+            };
+            let uniforms = facts.uniforms(&params, &camera, 0.0, 0.0);
+            let samples = Samples {
+                photo,
+                noise,
+                detail,
+                gradient: 0.0,
+            };
+            let (grey, _) = shade(&uniforms.clouds, samples);
+            let apart = light(&uniforms.clouds, grey) - xyz(uniforms.sky.overcast);
+            assert!(
+                apart.abs().max_element() < 1e-5,
+                "{time} {density}: {apart}"
+            );
+            assert_eq!(uniforms.sky.overcast[3], 1.0);
+        }
+        let fair = facts.uniforms(&welkin_runtime::SkyParams::default(), &camera, 0.0, 0.0);
+        assert_eq!(fair.sky.overcast[3], 0.0, "the paper's sky below cover 0.8");
+    }
+
     #[test]
     fn the_fold_is_the_papers_but_for_its_kink() {
         for i in 0..300 {
