@@ -7,7 +7,14 @@ CARGO ?= cargo
 WELKIN := target/release/welkin
 VIEW := target/release/welkin-view
 PACK := packs/default
+SKYBOX_PACK := packs/skybox
 FRAME := --size 1280x720
+
+# The three skies that every method draws.
+METHODS := packed octaves fbm
+NOON := --time 0.45 --azimuth 100 --elevation 28
+SUNSET := --time 0.742 --sunset 1 --cover 0.62 --height 0.6 --azimuth 270 --elevation 20
+STORM := --time 0.42 --cover 0.92 --density 0.75 --azimuth 40 --elevation 25
 
 # Mesa's device selection complains of a desktop session that is not there; without it, nothing is lost.
 export NODEVICE_SELECT := 1
@@ -17,19 +24,30 @@ export NODEVICE_SELECT := 1
 help: ## Say what can be made
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
 
-sky: gpu-tools ## Bake the default pack, check it, and draw pictures of it into out/
+sky: gpu-tools ## Bake the default pack, check it, and draw pictures of every method into out/
 	$(CARGO) build --release --locked -p welkin-baker -p welkin-viewer
 	$(WELKIN) bake -o $(PACK) --force
 	$(WELKIN) check $(PACK)
 	mkdir -p out
 	$(WELKIN) preview $(PACK) -o out/preview.png
-	$(VIEW) render $(PACK) -o out/noon.png $(FRAME) --time 0.5 --azimuth 90 --elevation 28
+	for method in $(METHODS); do \
+	  $(VIEW) render $(PACK) -o out/$$method-noon.png $(FRAME) --method $$method $(NOON); \
+	  $(VIEW) render $(PACK) -o out/$$method-sunset.png $(FRAME) --method $$method $(SUNSET); \
+	done
+	$(VIEW) render $(PACK) -o out/packed-storm.png $(FRAME) --method packed $(STORM)
+	$(VIEW) render $(PACK) -o out/octaves-storm.png $(FRAME) --method octaves $(STORM)
+	$(VIEW) render $(PACK) -o out/fbm-storm.png $(FRAME) --method fbm --palette stormy $(STORM)
 	$(VIEW) render $(PACK) -o out/figure2.png $(FRAME) --cover 0.69 --height 1.0 --density 0 --sunset 0.72 --speed 0.1 --time 0.35 --azimuth 130 --elevation 28
 	$(VIEW) render $(PACK) -o out/figure4.png $(FRAME) --cover 0.57 --height 0.52 --density 0.84 --sunset 0.43 --speed 0 --time 0.72 --azimuth 250 --elevation 26
-	$(VIEW) render $(PACK) -o out/sunset.png $(FRAME) --time 0.742 --sunset 1 --cover 0.62 --height 0.6 --azimuth 270 --elevation 20
 	$(VIEW) render $(PACK) -o out/night.png $(FRAME) --time 0 --cover 0.35 --azimuth 72 --elevation 42 --fov 75
 	$(VIEW) render $(PACK) -o out/overcast.png $(FRAME) --time 0.45 --cover 1 --density 0.6 --azimuth 30 --elevation 26
-	@echo "pictures are in out/, the pack is in $(PACK)"
+	$(VIEW) render $(PACK) -o out/flare.png $(FRAME) --time 0.64 --cover 0.55 --azimuth 208 --elevation 26
+	$(VIEW) render $(PACK) -o out/parallax-here.png $(FRAME) --method octaves --cover 0.5 $(NOON)
+	$(VIEW) render $(PACK) -o out/parallax-there.png $(FRAME) --method octaves --cover 0.5 $(NOON) --north 400
+	$(WELKIN) bake assets-src/recipes/skybox.toml -o $(SKYBOX_PACK) --force
+	$(WELKIN) check $(SKYBOX_PACK)
+	$(VIEW) render $(SKYBOX_PACK) -o out/skybox.png $(FRAME) --method fbm --cover 0.4 --time 0.4 --azimuth 50 --elevation 22
+	@echo "pictures are in out/, the packs are in packs/"
 
 test: gpu-tools node-tools ## Run every test, and formatting, lints and docs without a warning
 	$(CARGO) fmt --all --check
@@ -43,10 +61,10 @@ check: ## Compile and lint, without running anything
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 
-bench: gpu-tools ## Measure the bake, and the GPU milliseconds of a frame
+bench: gpu-tools ## Measure the bake, and the GPU milliseconds of a frame of each method
 	$(CARGO) build --release --locked -p welkin-baker -p welkin-viewer
 	$(WELKIN) bake -o $(PACK) --force
-	$(VIEW) bench $(PACK)
+	$(VIEW) bench $(PACK) --method all
 
 tools: gpu-tools node-tools ## Install what pictures and tests need, with apt, where it is missing
 

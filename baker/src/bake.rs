@@ -1,15 +1,16 @@
-//! Orchestration: a resolved recipe becomes five linear images, and those become a pack.
+//! Orchestration: a resolved recipe becomes linear images, and those become a pack.
 
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use welkin_pack::manifest::Input;
 use welkin_pack::{Format, Image, Pack, PackInfo, Role, Source};
 
 use crate::clouds::{self, photo};
 use crate::error::BakeError;
-use crate::settings::{PhotoSettings, Resolved};
-use crate::{galaxy, load, sky, stars, sun};
+use crate::load::{self, Picture};
+use crate::settings::{PhotoSettings, Resolved, SkyboxSettings};
+use crate::{fbm, flares, galaxy, octaves, sky, skybox, stars, sun};
 
 /// How far a bake is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,14 +26,15 @@ pub struct Progress {
 /// Called before each step and at the end; [`ControlFlow::Break`] cancels the bake.
 type OnProgress<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
 
-/// The steps that [`sources`] takes, in order.
-const STEPS: [&str; 8] = [
-    "photo", "noise", "detail", "gradient", "stars", "galaxy", "sky", "sun",
+/// The steps that [`sources`] takes, in order; the last one only if there is a skybox.
+const STEPS: [&str; 12] = [
+    "photo", "noise", "detail", "gradient", "stars", "galaxy", "sky", "sun", "octaves", "fbm",
+    "flares", "skybox",
 ];
 
 /// Bakes a pack in memory.
 ///
-/// `base` is the folder that relative photograph paths start from.
+/// `base` is the folder that relative paths of pictures start from.
 ///
 /// # Errors
 /// See [`BakeError`]; nothing is written in any case.
@@ -41,17 +43,17 @@ pub fn bake(
     base: Option<&Path>,
     progress: OnProgress,
 ) -> Result<Pack, BakeError> {
-    let photo = photo_of(&resolved.clouds.photo, base)?;
-    let total = STEPS.len() as u32 + 1;
+    let files = Files::read(resolved, base)?;
+    let total = step_count(resolved) + 1;
     let step = |step, done| advance(progress, step, done, total);
-    let sources = make(resolved, &photo, &step)?;
+    let sources = make(resolved, &files, &step)?;
     step("pack", total - 1)?;
     let info = PackInfo {
         name: resolved.name.clone(),
         seed: resolved.seed,
         baker: concat!("welkin ", env!("CARGO_PKG_VERSION")).to_string(),
         recipe: resolved.recipe.clone(),
-        inputs: inputs(resolved, &photo),
+        inputs: files.inputs(),
         noon_elevation_rad: resolved.sun.noon_elevation_rad,
     };
     let pack = Pack::build(info, sources)?;
@@ -68,10 +70,10 @@ pub fn sources(
     base: Option<&Path>,
     progress: OnProgress,
 ) -> Result<Vec<Source>, BakeError> {
-    let photo = photo_of(&resolved.clouds.photo, base)?;
-    let total = STEPS.len() as u32;
+    let files = Files::read(resolved, base)?;
+    let total = step_count(resolved);
     let step = |step, done| advance(progress, step, done, total);
-    let sources = make(resolved, &photo, &step)?;
+    let sources = make(resolved, &files, &step)?;
     step("done", total)?;
     Ok(sources)
 }
@@ -91,48 +93,66 @@ pub fn photo_channel(
     photo::channel(&picture, file_name, settings)
 }
 
-struct Photo {
-    file: String,
-    bytes: std::borrow::Cow<'static, [u8]>,
+/// The six faces of a skybox, +X, -X, +Y, -Y, +Z, -Z, as a cube texture has them: radiance times cover (red,
+/// green, blue; linear BT.709) and cover.
+///
+/// `base` is the folder that relative paths start from.
+///
+/// # Errors
+/// [`BakeError::Read`], [`BakeError::NoBase`], [`BakeError::Decode`] or [`BakeError::Photo`].
+pub fn skybox_faces(
+    settings: &SkyboxSettings,
+    base: Option<&Path>,
+) -> Result<Vec<Image>, BakeError> {
+    skybox::images(settings, &skybox::read(settings, base)?, &|| Ok(()))
 }
 
-fn photo_of(settings: &PhotoSettings, base: Option<&Path>) -> Result<Photo, BakeError> {
-    let Some(file) = &settings.file else {
-        return Ok(Photo {
-            file: photo::BUILT_IN_NAME.to_string(),
-            bytes: photo::BUILT_IN.into(),
-        });
-    };
-    let path = match base {
-        _ if Path::new(file).is_absolute() => PathBuf::from(file),
-        Some(folder) => folder.join(file),
-        None => return Err(BakeError::NoBase { file: file.clone() }),
-    };
-    let bytes = load::read_photo(&path)?;
-    Ok(Photo {
-        file: path.display().to_string(),
-        bytes: bytes.into(),
-    })
+/// The files that a recipe names.
+struct Files {
+    photo: Option<Picture>,
+    skybox: Vec<Picture>,
 }
 
-fn inputs(resolved: &Resolved, photo: &Photo) -> Vec<Input> {
-    let named = resolved.clouds.photo.file.iter();
-    named
-        .map(|_| Input {
-            key: "clouds.photo.file".to_string(),
-            blake3: blake3::hash(&photo.bytes).to_hex().to_string(),
+impl Files {
+    fn read(resolved: &Resolved, base: Option<&Path>) -> Result<Files, BakeError> {
+        let photo = resolved.clouds.photo.file.as_ref();
+        let photo = photo.map(|file| Picture::read(base, file, load::PHOTO_KEY));
+        let skybox = resolved.skybox.as_ref();
+        let skybox = skybox.map(|settings| skybox::read(settings, base));
+        Ok(Files {
+            photo: photo.transpose()?,
+            skybox: skybox.transpose()?.unwrap_or_default(),
         })
-        .collect()
+    }
+
+    fn photo_channel(&self, settings: &PhotoSettings) -> Result<Image, BakeError> {
+        match &self.photo {
+            Some(photo) => photo_channel(&photo.bytes, &photo.file, settings),
+            None => photo_channel(photo::BUILT_IN, photo::BUILT_IN_NAME, settings),
+        }
+    }
+
+    fn inputs(&self) -> Vec<Input> {
+        let input = |picture: &Picture| Input {
+            key: picture.key.clone(),
+            blake3: blake3::hash(&picture.bytes).to_hex().to_string(),
+        };
+        self.photo.iter().chain(&self.skybox).map(input).collect()
+    }
+}
+
+fn step_count(resolved: &Resolved) -> u32 {
+    STEPS.len() as u32 - u32::from(resolved.skybox.is_none())
 }
 
 fn make(
     resolved: &Resolved,
-    photo: &Photo,
+    files: &Files,
     step: &dyn Fn(&'static str, u32) -> Result<(), BakeError>,
 ) -> Result<Vec<Source>, BakeError> {
     let (seed, clouds) = (resolved.seed, &resolved.clouds);
     step(STEPS[0], 0)?;
-    let red = photo_channel(&photo.bytes, &photo.file, &clouds.photo)?;
+    let red = files.photo_channel(&clouds.photo)?;
     step(STEPS[1], 1)?;
     let green = clouds::noise::channel(&clouds.noise, clouds.size, seed, "clouds.noise");
     step(STEPS[2], 2)?;
@@ -148,33 +168,36 @@ fn make(
     let sky = sky::image(&resolved.sky, resolved.sun.noon_elevation_rad);
     step(STEPS[7], 7)?;
     let sun = sun::image(&resolved.sun);
-    Ok(vec![
-        Source {
-            role: Role::Clouds,
-            format: clouds.format,
-            image: clouds_image,
-        },
-        Source {
-            role: Role::Stars,
-            format: Format::Rgba8Unorm,
-            image: stars,
-        },
-        Source {
-            role: Role::Galaxy,
-            format: Format::R8Unorm,
-            image: galaxy,
-        },
-        Source {
-            role: Role::Sky,
-            format: Format::Rgba16Float,
-            image: sky,
-        },
-        Source {
-            role: Role::Sun,
-            format: Format::Rg8Unorm,
-            image: sun,
-        },
-    ])
+    step(STEPS[8], 8)?;
+    let octaves = octaves::image(seed);
+    step(STEPS[9], 9)?;
+    let fbm = fbm::images(&resolved.fbm, seed);
+    step(STEPS[10], 10)?;
+    let flares = flares::image(&resolved.flares, seed);
+    let mut sources = vec![
+        source(Role::Clouds, clouds.format, vec![clouds_image]),
+        source(Role::Stars, Format::Rgba8Unorm, vec![stars]),
+        source(Role::Galaxy, Format::R8Unorm, vec![galaxy]),
+        source(Role::Sky, Format::Rgba16Float, vec![sky]),
+        source(Role::Sun, Format::Rg8Unorm, vec![sun]),
+        source(Role::Octaves, Format::Rgba8Unorm, vec![octaves]),
+        source(Role::Fbm, Format::Rgba8Unorm, fbm),
+        source(Role::Flares, Format::R8Unorm, vec![flares]),
+    ];
+    if let Some(settings) = &resolved.skybox {
+        let proceed = || step(STEPS[11], 11);
+        let faces = skybox::images(settings, &files.skybox, &proceed)?;
+        sources.push(source(Role::Skybox, Format::Rgba16Float, faces));
+    }
+    Ok(sources)
+}
+
+fn source(role: Role, format: Format, images: Vec<Image>) -> Source {
+    Source {
+        role,
+        format,
+        images,
+    }
 }
 
 fn advance(

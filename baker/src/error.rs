@@ -45,26 +45,28 @@ pub enum BakeError {
     /// The caller asked to stop. Nothing was written.
     #[error("cancelled; nothing was written")]
     Cancelled,
-    /// A photograph could not be read.
-    #[error("{file}: cannot be read: {source}; check `clouds.photo.file` in the recipe")]
+    /// A photograph or the picture of a sky could not be read.
+    #[error("{file}: cannot be read: {source}; check `{key}` in the recipe")]
     Read {
-        /// The photograph.
+        /// The picture.
         file: String,
+        /// The key in the recipe that names it, such as `clouds.photo.file`.
+        key: String,
         /// The operating system's reason.
         source: io::Error,
     },
-    /// A photograph could not be decoded.
+    /// A PNG or JPEG could not be decoded.
     #[error("{file}: cannot be decoded: {source}; expected a whole PNG or JPEG file")]
     Decode {
-        /// The photograph.
+        /// The picture.
         file: String,
         /// The decoder's reason.
         source: image::ImageError,
     },
-    /// A photograph is not fit for use.
+    /// A photograph or the picture of a sky is not fit for use.
     #[error("{file}: {key} is {found}, expected {expected}")]
     Photo {
-        /// The photograph.
+        /// The picture.
         file: String,
         /// What about it.
         key: &'static str,
@@ -73,13 +75,15 @@ pub enum BakeError {
         /// As it should be.
         expected: String,
     },
-    /// The recipe names a photograph by a relative path, but was not read from a folder.
+    /// The recipe names a picture by a relative path, but was not read from a folder.
     #[error(
-        "{file}: a relative path in a recipe that has no folder; give an absolute path for `clouds.photo.file`"
+        "{file}: a relative path in a recipe that has no folder; give an absolute path for `{key}`"
     )]
     NoBase {
-        /// The photograph.
+        /// The picture.
         file: String,
+        /// The key in the recipe that names it.
+        key: String,
     },
     /// The images were refused as a pack.
     #[error(transparent)]

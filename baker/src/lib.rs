@@ -2,7 +2,7 @@
 //! channel has a documented meaning.
 //!
 //! The way through is one line: [`Recipe::parse`] reads TOML, [`Recipe::resolve`] fills defaults and
-//! checks ranges, [`sources`] makes one linear float image a texture, and [`bake`] hands those to
+//! checks ranges, [`sources`] makes the linear float images of every texture, and [`bake`] hands those to
 //! `welkin-pack`, which quantises them and builds the mip levels.
 //!
 //! The same recipe, seed and version give the same bytes on every machine and with any number of
@@ -13,29 +13,33 @@
 //! use std::ops::ControlFlow;
 //! let resolved = welkin_baker::Recipe::default().resolve(Some(7))?;
 //! let images = welkin_baker::sources(&resolved, None, &|_| ControlFlow::Continue(()))?;
-//! assert_eq!(images.len(), 5);
+//! assert_eq!(images.len(), 8);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod bake;
 mod clouds;
 mod error;
+mod fbm;
 mod filter;
+mod flares;
 mod galaxy;
 mod load;
+mod octaves;
 mod recipe;
 mod resolve;
 mod settings;
 mod sky;
+mod skybox;
 mod stars;
 mod stream;
 mod sun;
 
-pub use bake::{Progress, bake, photo_channel, sources};
+pub use bake::{Progress, bake, photo_channel, skybox_faces, sources};
 pub use error::{BakeError, RecipeError};
 pub use load::read_photo;
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
-    CloudSettings, FractalSettings, GalaxySettings, GradientSettings, PhotoSettings, Resolved,
-    SkySettings, StarSettings, SunSettings,
+    CloudSettings, FbmSettings, FlareSettings, FractalSettings, GalaxySettings, GradientSettings,
+    PhotoSettings, Resolved, SkySettings, SkyboxPicture, SkyboxSettings, StarSettings, SunSettings,
 };

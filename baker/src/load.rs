@@ -1,18 +1,27 @@
-//! Photographs: read with a limit, decoded with limits that are checked before anything is allocated.
+//! Pictures: read with a limit, decoded with limits that are checked before anything is allocated.
+//!
+//! What a file is, its first bytes say, not its name. Photographs of clouds are wanted as stored; skies are
+//! wanted as radiance.
+
+mod exr;
+mod hdr;
+mod sky;
 
 use std::fs::File;
 use std::io::{Cursor, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use welkin_pack::Image;
 
 use crate::error::BakeError;
 
+pub(crate) use sky::decode_sky;
+
 /// The largest file that is read, in bytes: an 8192x8192 PNG of noise is smaller.
 const MAX_FILE_BYTES: u64 = 256 << 20;
 
-/// The largest side of a photograph, in texels.
+/// The largest side of a picture, in texels.
 const MAX_SIDE: u32 = 8192;
 
 /// The smallest side of a photograph, in texels: less holds no cloud.
@@ -26,9 +35,49 @@ const MAX_DECODED_BYTES: u64 = 512 << 20;
 /// # Errors
 /// [`BakeError::Read`], or [`BakeError::Photo`] if it is larger.
 pub fn read_photo(path: &Path) -> Result<Vec<u8>, BakeError> {
+    read(path, PHOTO_KEY)
+}
+
+/// The key of the photograph in the recipe.
+pub(crate) const PHOTO_KEY: &str = "clouds.photo.file";
+
+/// A picture file that a recipe names.
+pub(crate) struct Picture {
+    /// Its key in the recipe.
+    pub key: String,
+    /// Its path, for errors.
+    pub file: String,
+    /// What is in it.
+    pub bytes: Vec<u8>,
+}
+
+impl Picture {
+    /// Reads `file`, the value of `key`; a relative path starts from the folder `base`.
+    pub fn read(base: Option<&Path>, file: &str, key: &str) -> Result<Picture, BakeError> {
+        let path = match base {
+            _ if Path::new(file).is_absolute() => PathBuf::from(file),
+            Some(folder) => folder.join(file),
+            None => {
+                return Err(BakeError::NoBase {
+                    file: file.to_string(),
+                    key: key.to_string(),
+                });
+            }
+        };
+        Ok(Picture {
+            key: key.to_string(),
+            file: path.display().to_string(),
+            bytes: read(&path, key)?,
+        })
+    }
+}
+
+/// Reads the bytes of a picture that the recipe names under `key`.
+fn read(path: &Path, key: &str) -> Result<Vec<u8>, BakeError> {
     let file = path.display().to_string();
     let failed = |source| BakeError::Read {
         file: file.clone(),
+        key: key.to_string(),
         source,
     };
     let opened = File::open(path).map_err(failed)?;
@@ -64,6 +113,24 @@ pub(crate) fn decode(bytes: &[u8], file: &str) -> Result<Image, BakeError> {
             ));
         }
     };
+    let fits = |side| (MIN_SIDE..=MAX_SIDE).contains(&side);
+    let picture = decode_stored(bytes, file, format, &|width, height| {
+        if fits(width) && fits(height) {
+            return Ok(());
+        }
+        let expected = format!("{MIN_SIDE} to {MAX_SIDE} texels a side; resize it");
+        Err(unfit(file, "size", format!("{width}x{height}"), expected))
+    })?;
+    Ok(to_image(picture))
+}
+
+/// Decodes a PNG or a JPEG. `fits` is asked about the size before anything is allocated for it.
+fn decode_stored(
+    bytes: &[u8],
+    file: &str,
+    format: ImageFormat,
+    fits: &dyn Fn(u32, u32) -> Result<(), BakeError>,
+) -> Result<DynamicImage, BakeError> {
     if format == ImageFormat::Jpeg && !jpeg_ends(bytes) {
         return Err(unfit(
             file,
@@ -78,16 +145,12 @@ pub(crate) fn decode(bytes: &[u8], file: &str) -> Result<Image, BakeError> {
     };
     let reader = || ImageReader::with_format(Cursor::new(bytes), format);
     let (width, height) = reader().into_dimensions().map_err(failed)?;
-    let fits = |side| (MIN_SIDE..=MAX_SIDE).contains(&side);
-    if !fits(width) || !fits(height) {
-        let expected = format!("{MIN_SIDE} to {MAX_SIDE} texels a side; resize it");
-        return Err(unfit(file, "size", format!("{width}x{height}"), expected));
-    }
+    fits(width, height)?;
     let mut limited = reader();
     let mut limits = Limits::default();
     limits.max_alloc = Some(MAX_DECODED_BYTES);
     limited.limits(limits);
-    Ok(to_image(limited.decode().map_err(failed)?))
+    limited.decode().map_err(failed)
 }
 
 /// Whether a JPEG goes on to its end marker: decoders fill what is missing with grey instead of saying so.
@@ -145,7 +208,8 @@ fn to_image(picture: DynamicImage) -> Image {
     }
 }
 
-fn unfit(
+/// An error about what a picture is.
+pub(crate) fn unfit(
     file: &str,
     key: &'static str,
     found: impl ToString,

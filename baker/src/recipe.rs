@@ -37,6 +37,9 @@ pub(crate) struct Tables {
     pub galaxy: Galaxy,
     pub sky: Sky,
     pub sun: Sun,
+    pub fbm: Fbm,
+    pub flares: Flares,
+    pub skybox: Option<Spanned<Skybox>>,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -103,6 +106,41 @@ pub(crate) struct Sky {
 pub(crate) struct Sun {
     pub size: Entry,
     pub noon_elevation_deg: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Fbm {
+    pub size: Entry,
+    pub octaves: Entry,
+    pub cells: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Flares {
+    pub size: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Skybox {
+    pub file: Entry,
+    pub faces: Option<Spanned<Faces>>,
+    pub size: Entry,
+    pub gain: Entry,
+    pub azimuth_deg: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Faces {
+    pub east: Entry,
+    pub west: Entry,
+    pub up: Entry,
+    pub down: Entry,
+    pub south: Entry,
+    pub north: Entry,
 }
 
 impl Recipe {

@@ -1,6 +1,9 @@
 //! The recipe as it is used: defaults filled, types and ranges checked. Later stages never see TOML.
 
+mod skybox;
+
 use std::f32::consts::PI;
+use std::ops::Range;
 
 use toml::{Spanned, Value};
 use welkin_pack::Format;
@@ -8,8 +11,8 @@ use welkin_pack::Format;
 use crate::error::RecipeError;
 use crate::recipe::{Entry, Fractal, Recipe, line_and_column};
 use crate::settings::{
-    CloudSettings, FractalSettings, GalaxySettings, GradientSettings, PhotoSettings, Resolved,
-    SkySettings, StarSettings, SunSettings,
+    CloudSettings, FbmSettings, FlareSettings, FractalSettings, GalaxySettings, GradientSettings,
+    PhotoSettings, Resolved, SkySettings, StarSettings, SunSettings,
 };
 
 impl Recipe {
@@ -43,6 +46,11 @@ impl Recipe {
                     90.0,
                 )?,
             },
+            fbm: self.fbm()?,
+            flares: FlareSettings {
+                size: self.size("flares.size", &t.flares.size, 256, 64, 1024)?,
+            },
+            skybox: self.skybox()?,
         })
     }
 
@@ -120,6 +128,20 @@ impl Recipe {
             tilt_rad: self.degrees("galaxy.tilt_deg", &g.tilt_deg, 58.0, 0.0, 90.0)?,
             azimuth_rad: self.degrees("galaxy.azimuth_deg", &g.azimuth_deg, 35.0, 0.0, 360.0)?,
             dust: self.real("galaxy.dust", &g.dust, 0.8, 0.0, 1.0)?,
+        })
+    }
+
+    fn fbm(&self) -> Result<FbmSettings, RecipeError> {
+        let f = &self.tables.fbm;
+        let size = self.size("fbm.size", &f.size, 256, 64, 1024)?;
+        // The finest cell has two texels: with one there would be nothing between the lattice points.
+        let finest = size / 2;
+        let cells = self.size("fbm.cells", &f.cells, 8, 4, finest)?;
+        let most = (finest / cells).ilog2() + 1;
+        Ok(FbmSettings {
+            size,
+            octaves: self.integer("fbm.octaves", &f.octaves, 4.min(most), 1, most.min(8))?,
+            cells,
         })
     }
 
@@ -243,13 +265,23 @@ impl Recipe {
     }
 
     fn refuse(&self, key: &str, value: &Spanned<Value>, expected: impl ToString) -> RecipeError {
-        let (line, column) = line_and_column(&self.text, value.span());
+        self.refuse_at(key, value.span(), shown(value.get_ref()), expected)
+    }
+
+    fn refuse_at(
+        &self,
+        key: &str,
+        span: Range<usize>,
+        found: impl ToString,
+        expected: impl ToString,
+    ) -> RecipeError {
+        let (line, column) = line_and_column(&self.text, span);
         RecipeError::Value {
             file: self.file.clone(),
             line,
             column,
             key: key.to_string(),
-            found: shown(value.get_ref()),
+            found: found.to_string(),
             expected: expected.to_string(),
         }
     }

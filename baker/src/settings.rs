@@ -21,6 +21,12 @@ pub struct Resolved {
     pub sky: SkySettings,
     /// The sun.
     pub sun: SunSettings,
+    /// Octaves of smooth noise.
+    pub fbm: FbmSettings,
+    /// The lens flare.
+    pub flares: FlareSettings,
+    /// The skybox, if the recipe names a picture.
+    pub skybox: Option<SkyboxSettings>,
 }
 
 /// The packed cloud texture.
@@ -115,4 +121,48 @@ pub struct SunSettings {
     pub size: u32,
     /// Elevation of the sun at noon, in radians.
     pub noon_elevation_rad: f32,
+}
+
+/// Octaves of smooth noise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FbmSettings {
+    /// Texels a side, a power of two.
+    pub size: u32,
+    /// Octaves, one a layer; each doubles the cells of the one before.
+    pub octaves: u32,
+    /// Lattice cells of the first octave across the tile, a power of two.
+    pub cells: u32,
+}
+
+/// The lens flare.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlareSettings {
+    /// Texels a side of the atlas, a power of two.
+    pub size: u32,
+}
+
+/// The skybox.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SkyboxSettings {
+    /// What it is made from.
+    pub picture: SkyboxPicture,
+    /// Texels a side of a face, a power of two; as many as the picture has, if absent.
+    pub size: Option<u32>,
+    /// Factor on the radiance.
+    pub gain: f32,
+}
+
+/// The files of a skybox: PNG, JPEG, Radiance HDR or OpenEXR.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SkyboxPicture {
+    /// An equirectangular picture, twice as wide as high.
+    Panorama {
+        /// The file.
+        file: String,
+        /// Azimuth of its middle, from north towards east, in radians.
+        azimuth_rad: f32,
+    },
+    /// Square pictures in the order of [`welkin_pack::format::CUBE_FACES`], upright, as seen from the middle.
+    /// The lower edge of `up` and the upper edge of `down` join north.
+    Faces([String; 6]),
 }

@@ -5,7 +5,7 @@ mod common;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-use common::image;
+use common::{image, images};
 use welkin_baker::{BakeError, Recipe, bake};
 use welkin_pack::{Role, Source};
 
@@ -41,6 +41,10 @@ fn another_seed_changes_every_random_channel_and_no_other() {
         (Role::Stars, 1),
         (Role::Stars, 3),
         (Role::Galaxy, 0),
+        (Role::Octaves, 0),
+        (Role::Octaves, 3),
+        (Role::Fbm, 3),
+        (Role::Flares, 0),
     ] {
         assert!(
             channel(&one, role, c) != channel(&two, role, c),
@@ -72,13 +76,25 @@ fn settings_of_one_channel_leave_the_others_alone() {
             "clouds {c}"
         );
     }
-    for role in [Role::Stars, Role::Galaxy, Role::Sky, Role::Sun] {
+    for role in [
+        Role::Stars,
+        Role::Galaxy,
+        Role::Sky,
+        Role::Sun,
+        Role::Octaves,
+        Role::Fbm,
+        Role::Flares,
+    ] {
         assert!(image(&plain, role) == image(&noise, role), "{role:?}");
     }
     // Fewer magnitudes dim no star's neighbours: places and phases stay.
     let stars = bake_images(&format!("{SMALL}[stars]\nmagnitudes = 3\n"), None);
     assert!(channel(&plain, Role::Stars, 0) != channel(&stars, Role::Stars, 0));
     assert!(channel(&plain, Role::Stars, 3) == channel(&stars, Role::Stars, 3));
+    // More layers leave the first ones as they were.
+    let more = bake_images(&format!("{SMALL}[fbm]\noctaves = 5\n"), None);
+    let (few, many) = (images(&plain, Role::Fbm), images(&more, Role::Fbm));
+    assert!(many.len() == 5 && few == &many[..4]);
 }
 
 #[test]

@@ -160,6 +160,67 @@ fn values_of_the_wrong_type_or_out_of_range_are_told_with_key_and_place() {
             "5 to 90",
         ),
         ("sun.size = [128]", "sun.size", "128", "power of two"),
+        (
+            "fbm.size = 32",
+            "fbm.size",
+            "32",
+            "power of two from 64 to 1024",
+        ),
+        (
+            "fbm.size = 2048",
+            "fbm.size",
+            "2048",
+            "power of two from 64 to 1024",
+        ),
+        (
+            "fbm.cells = 2",
+            "fbm.cells",
+            "2",
+            "power of two from 4 to 128",
+        ),
+        (
+            "fbm.cells = 12",
+            "fbm.cells",
+            "12",
+            "power of two from 4 to 128",
+        ),
+        (
+            "fbm.cells = 256",
+            "fbm.cells",
+            "256",
+            "power of two from 4 to 128",
+        ),
+        // 8 cells, five times doubled, are 256 on 256 texels: there would be nothing between them.
+        (
+            "fbm.octaves = 6",
+            "fbm.octaves",
+            "6",
+            "an integer from 1 to 5",
+        ),
+        (
+            "fbm.octaves = 0",
+            "fbm.octaves",
+            "0",
+            "an integer from 1 to 5",
+        ),
+        (
+            "fbm.octaves = nan",
+            "fbm.octaves",
+            "nan",
+            "an integer from 1 to 5",
+        ),
+        (
+            "flares.size = 0",
+            "flares.size",
+            "0",
+            "power of two from 64 to 1024",
+        ),
+        (
+            "flares.size = 1e3",
+            "flares.size",
+            "1000.0",
+            "power of two from 64 to 1024",
+        ),
     ];
     for (text, key, found, expected) in cases {
         let text = format!("# a comment\n{text}\n");
@@ -202,8 +263,19 @@ fn formats_have_short_names() {
 
 #[test]
 fn small_sizes_have_defaults_that_fit_them() {
-    let text = "[clouds]\nsize = 64\n[stars]\nsize = 64\n";
+    let text = "[clouds]\nsize = 64\n[stars]\nsize = 64\n[fbm]\nsize = 64\n";
     let resolved = resolve(text).unwrap();
     assert_eq!(resolved.clouds.detail.cells, 8);
     assert_eq!(resolved.stars.count, 128);
+    assert_eq!((resolved.fbm.cells, resolved.fbm.octaves), (8, 3));
+}
+
+#[test]
+fn the_finest_octaves_that_fit_are_allowed_and_no_finer() {
+    let resolved = resolve("[fbm]\nsize = 1024\ncells = 4\noctaves = 8\n").unwrap();
+    assert_eq!(resolved.fbm.octaves, 8);
+    // 512 cells on 1024 texels; the next would have one texel a cell.
+    assert!(resolve("[fbm]\nsize = 1024\ncells = 8\noctaves = 8\n").is_err());
+    assert!(resolve("[fbm]\nsize = 64\ncells = 32\noctaves = 1\n").is_ok());
+    assert!(resolve("[fbm]\nsize = 64\ncells = 32\noctaves = 2\n").is_err());
 }

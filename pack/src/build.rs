@@ -1,7 +1,10 @@
-//! Builds a pack: quantises the images, makes their mips, writes the files in memory, reads them back.
+//! Builds a pack: quantises the images, makes their mips, writes the files in memory, reads them back; several
+//! textures at a time.
+
+use rayon::prelude::*;
 
 use crate::manifest::{Channel, Input, KIND, MANIFEST_FILE, Sampler, TextureEntry, VERSION};
-use crate::{Format, Image, Manifest, Pack, PackError, Role, Texture, ktx, limits, mip};
+use crate::{Format, Image, Manifest, Pack, PackError, Role, Texture, ktx, mip};
 
 /// What a pack is built from, beside its images.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,23 +30,34 @@ pub struct Source {
     pub role: Role,
     /// The format to store it in; one of those that the role allows.
     pub format: Format,
-    /// Values as a shader will read them: 0..1 for unorm formats.
-    pub image: Image,
+    /// Values as a shader will read them, 0..1 for unorm formats: one image, or one a layer or face, all of
+    /// one size.
+    pub images: Vec<Image>,
+}
+
+impl Source {
+    /// Width and height of the first image, and how many there are.
+    fn size(&self) -> [u32; 3] {
+        let [width, height] = self
+            .images
+            .first()
+            .map_or([0, 0], |image| [image.width, image.height]);
+        [width, height, self.images.len() as u32]
+    }
 }
 
 impl Pack {
     /// Builds a pack from linear images, and proves that reading it back gives the same texels.
     ///
     /// # Errors
-    /// [`PackError::Value`] if a role comes twice, its format is not one that it allows, or its image has
-    /// the wrong channels, sides that are not powers of two, or values that are not finite.
+    /// [`PackError::Value`] if a role comes twice, its format is not one that it allows, or its images are too
+    /// few or too many, of several sizes, or have the wrong channels or size, or values that are not finite.
     pub fn build(info: PackInfo, mut sources: Vec<Source>) -> Result<Pack, PackError> {
         sources.sort_by_key(|source| source.role);
-        let mut textures = Vec::new();
-        for source in sources {
+        for (index, source) in sources.iter().enumerate() {
             let file = source.role.file();
-            verify_source(&file, &source)?;
-            if textures.iter().any(|(role, _)| *role == source.role) {
+            verify_source(&file, source)?;
+            if index > 0 && sources[index - 1].role == source.role {
                 return Err(PackError::value(
                     &file,
                     "role",
@@ -51,9 +65,10 @@ impl Pack {
                     "one image a role",
                 ));
             }
-            textures.push((source.role, quantise(source)));
         }
-        Pack::from_textures(info, textures)
+        let textures = sources.into_par_iter();
+        let textures = textures.map(|source| (source.role, quantise(source)));
+        Pack::from_textures(info, textures.collect())
     }
 
     /// Builds a pack from quantised textures, in the order of their roles.
@@ -61,24 +76,18 @@ impl Pack {
         info: PackInfo,
         sources: Vec<(Role, Texture)>,
     ) -> Result<Pack, PackError> {
-        let mut textures = Vec::new();
+        let written: Vec<_> = sources
+            .par_iter()
+            .map(|(role, texture)| write_texture(*role, texture, &info.baker))
+            .collect();
         let mut entries = Vec::new();
         let mut files = Vec::new();
-        for (role, texture) in sources {
-            let file = role.file();
-            let bytes = ktx::encode(&file, &texture, &info.baker)?;
-            if ktx::decode(&file, &bytes)? != texture {
-                return Err(PackError::value(
-                    &file,
-                    "texels",
-                    "changed by writing",
-                    "the same after reading back",
-                ));
-            }
-            entries.push(entry(role, &file, &texture, &bytes));
-            textures.push(texture);
-            files.push((file, bytes));
+        for result in written {
+            let (entry, bytes) = result?;
+            files.push((entry.file.clone(), bytes));
+            entries.push(entry);
         }
+        let textures = sources.into_iter().map(|(_, texture)| texture).collect();
         let manifest = manifest(info, entries);
         let json = manifest.to_json();
         files.push((MANIFEST_FILE.to_string(), json.clone().into_bytes()));
@@ -89,6 +98,25 @@ impl Pack {
             files,
         })
     }
+}
+
+/// A texture's entry in the manifest and its file, which was read back and compared.
+fn write_texture(
+    role: Role,
+    texture: &Texture,
+    baker: &str,
+) -> Result<(TextureEntry, Vec<u8>), PackError> {
+    let file = role.file();
+    let bytes = ktx::encode(&file, texture, baker)?;
+    if ktx::decode(&file, &bytes)? != *texture {
+        return Err(PackError::value(
+            &file,
+            "texels",
+            "changed by writing",
+            "the same after reading back",
+        ));
+    }
+    Ok((entry(role, &file, texture, &bytes), bytes))
 }
 
 fn manifest(info: PackInfo, textures: Vec<TextureEntry>) -> Manifest {
@@ -107,10 +135,11 @@ fn manifest(info: PackInfo, textures: Vec<TextureEntry>) -> Manifest {
 }
 
 fn verify_source(file: &str, source: &Source) -> Result<(), PackError> {
-    let (spec, image) = (source.role.spec(), &source.image);
+    let spec = source.role.spec();
     let bad = |key: &str, found: String, expected: String| {
         Err(PackError::value(file, key, found, expected))
     };
+    spec.verify_size(file, "", source.size())?;
     if !spec.formats.contains(&source.format) {
         let allowed: Vec<_> = spec.formats.iter().map(|f| f.name()).collect();
         return bad(
@@ -119,6 +148,16 @@ fn verify_source(file: &str, source: &Source) -> Result<(), PackError> {
             allowed.join(" or "),
         );
     }
+    source
+        .images
+        .iter()
+        .try_for_each(|image| verify_image(file, source, image))
+}
+
+fn verify_image(file: &str, source: &Source, image: &Image) -> Result<(), PackError> {
+    let bad = |key: &str, found: String, expected: String| {
+        Err(PackError::value(file, key, found, expected))
+    };
     if image.channels != source.format.channels() {
         return bad(
             "channels",
@@ -126,14 +165,13 @@ fn verify_source(file: &str, source: &Source) -> Result<(), PackError> {
             source.format.channels().to_string(),
         );
     }
-    for (key, side) in [("width", image.width), ("height", image.height)] {
-        if !side.is_power_of_two() || side > limits::MAX_SIDE {
-            return bad(
-                key,
-                side.to_string(),
-                format!("a power of two up to {}", limits::MAX_SIDE),
-            );
-        }
+    let [width, height, _] = source.size();
+    if [image.width, image.height] != [width, height] {
+        return bad(
+            "images",
+            format!("{}x{}", image.width, image.height),
+            format!("{width}x{height}, as the first"),
+        );
     }
     let count = image.width as usize * image.height as usize * image.channels;
     if image.texels.len() != count {
@@ -150,19 +188,20 @@ fn verify_source(file: &str, source: &Source) -> Result<(), PackError> {
 }
 
 fn quantise(source: Source) -> Texture {
+    let [width, height, layers] = source.size();
     Texture {
         format: source.format,
         shape: source.role.spec().shape,
-        width: source.image.width,
-        height: source.image.height,
-        layers: 1,
-        levels: mip::levels(source.role, source.format, source.image),
+        width,
+        height,
+        layers,
+        levels: mip::levels(source.role, source.format, source.images),
     }
 }
 
 fn entry(role: Role, file: &str, texture: &Texture, bytes: &[u8]) -> TextureEntry {
     let spec = role.spec();
-    let image = texture.image(0, 0);
+    let image = texture.stacked(0);
     let channel = |(index, spec): (usize, &crate::role::ChannelSpec)| {
         let (mean, spread) = image.mean_and_spread(index);
         Channel {

@@ -77,6 +77,9 @@ impl Format {
     }
 }
 
+/// The faces of a cube in their order: +X, -X, +Y, -Y, +Z, -Z.
+pub const CUBE_FACES: [&str; 6] = ["east", "west", "up", "down", "south", "north"];
+
 /// How the images of one level are arranged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -98,6 +101,16 @@ impl Shape {
             Shape::D2 => "2d",
             Shape::Array => "2d-array",
             Shape::Cube => "cube",
+        }
+    }
+
+    /// What the image `layer` (from 0) of a level is called: nothing where there is only one, a number from 1
+    /// in an array, and the direction of a cube's face.
+    pub fn layer_name(self, layer: u32) -> Option<String> {
+        match self {
+            Shape::D2 => None,
+            Shape::Array => Some((layer + 1).to_string()),
+            Shape::Cube => Some(CUBE_FACES.get(layer as usize)?.to_string()),
         }
     }
 }

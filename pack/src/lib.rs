@@ -32,9 +32,13 @@ pub use error::PackError;
 pub use format::{Format, Shape};
 pub use image::Image;
 pub use manifest::Manifest;
+pub use mapping::FlareCell;
 pub use pack::Pack;
 #[cfg(feature = "write")]
 pub use pack::{Overwrite, PackInfo, Source};
 pub use role::Role;
-pub use texel::{CloudTexel, GalaxyTexel, SkyTexel, StarTexel, SunTexel};
+pub use texel::{
+    CloudTexel, FbmTexel, FlareTexel, GalaxyTexel, OctaveTexel, SkyTexel, SkyboxTexel, StarTexel,
+    SunTexel,
+};
 pub use texture::Texture;

@@ -13,7 +13,7 @@ pub const MANIFEST_FILE: &str = "pack.json";
 pub const KIND: &str = "welkin-pack";
 
 /// The version of the pack format that this crate reads and writes.
-pub const VERSION: u64 = 1;
+pub const VERSION: u64 = 2;
 
 /// A pack's manifest. docs/pack-format.md describes every key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -206,6 +206,8 @@ impl TextureEntry {
                 spec.shape.name().to_string(),
             );
         }
+        let size = [self.width, self.height, self.layers];
+        spec.verify_size(file, &format!("textures[{index}]."), size)?;
         let channels: Vec<&str> = self.channels.iter().map(|c| c.name.as_str()).collect();
         let expected: Vec<&str> = spec.channels.iter().map(|c| c.name).collect();
         if channels != expected {

@@ -3,7 +3,13 @@
 //! Directions are unit vectors, right-handed, +Y up, north -Z, east +X. Every mapping comes with its
 //! inverse, and a test sends points there and back.
 
+mod cube;
+mod flares;
+
 use std::f32::consts::SQRT_2;
+
+pub use cube::{cube_texel, cube_to_direction, direction_to_cube};
+pub use flares::FlareCell;
 
 /// Azimuth (from north towards east) and elevation, both in radians, to a unit direction.
 pub fn direction_from_angles(azimuth_rad: f32, elevation_rad: f32) -> [f32; 3] {
@@ -136,6 +142,9 @@ pub fn texel_to_sky(texel: [f32; 2], width: u32, height: u32) -> (f32, f32) {
 pub fn direction_to_gradient(direction: [f32; 3], sun_azimuth: [f32; 2]) -> f32 {
     0.5 + 0.5 * (direction[0] * sun_azimuth[0] + direction[2] * sun_azimuth[1])
 }
+
+/// Steps of the ray march of the role `fbm` across one tile: a step is `size / FBM_STEPS_A_TILE` texels.
+pub const FBM_STEPS_A_TILE: u32 = 64;
 
 /// Unit direction towards the sun at a time of day (0 midnight, 0.25 sunrise, 0.5 noon, 0.75 sunset).
 ///

@@ -7,8 +7,22 @@
 use crate::texture::encode;
 use crate::{Format, Image, Role, Texture};
 
-/// All levels of `image`, encoded: the full chain where the role asks for it, else level 0 alone.
-pub(crate) fn levels(role: Role, format: Format, image: Image) -> Vec<Vec<u8>> {
+/// All levels of the images, encoded, with the images of a level one after another: the full chain where the
+/// role asks for it, else level 0 alone.
+pub(crate) fn levels(role: Role, format: Format, images: Vec<Image>) -> Vec<Vec<u8>> {
+    let mut joined: Vec<Vec<u8>> = Vec::new();
+    for image in images {
+        for (index, level) in levels_of(role, format, image).into_iter().enumerate() {
+            match joined.get_mut(index) {
+                Some(bytes) => bytes.extend(level),
+                None => joined.push(level),
+            }
+        }
+    }
+    joined
+}
+
+fn levels_of(role: Role, format: Format, image: Image) -> Vec<Vec<u8>> {
     if !role.spec().mips {
         return vec![encode(format, &image.texels)];
     }
@@ -180,7 +194,7 @@ mod tests {
             .collect();
         let field = star_field(&field);
         let light: f32 = field.channel(0).sum::<f32>() / 4096.0;
-        for (index, bytes) in levels(Role::Stars, Format::Rgba8Unorm, field)
+        for (index, bytes) in levels_of(Role::Stars, Format::Rgba8Unorm, field)
             .iter()
             .enumerate()
         {
@@ -215,7 +229,7 @@ mod tests {
             (3, 3, [0.5, 0.2, 0.5, 0.95]),
             (40, 41, [0.01, 0.2, 0.01, 0.1]),
         ]);
-        for bytes in levels(Role::Stars, Format::Rgba8Unorm, field)
+        for bytes in levels_of(Role::Stars, Format::Rgba8Unorm, field)
             .iter()
             .skip(1)
         {
@@ -234,7 +248,7 @@ mod tests {
                 image.texel_mut(x, y)[GRADIENT] = (y as f32 / 63.0) * (y as f32 / 63.0);
             }
         }
-        let levels = levels(Role::Clouds, Format::Rgba8Unorm, image);
+        let levels = levels_of(Role::Clouds, Format::Rgba8Unorm, image);
         for (index, bytes) in levels.iter().enumerate().take(6) {
             assert_eq!(
                 (bytes[3], bytes[bytes.len() - 1]),

@@ -3,9 +3,11 @@
 use std::fs;
 use std::path::Path;
 
+use proptest::prelude::*;
+
 use crate::manifest::{MANIFEST_FILE, schema_json};
-use crate::test_pack::{info, pack, sources, write};
-use crate::{Overwrite, Pack, PackError, Role};
+use crate::test_pack::{Stream, info, pack, sources, write};
+use crate::{Image, Overwrite, Pack, PackError, Role, Source};
 
 fn never() -> bool {
     false
@@ -47,9 +49,13 @@ fn a_saved_pack_opens_as_it_was() {
         names(&folder),
         [
             "clouds.ktx2",
+            "fbm.ktx2",
+            "flares.ktx2",
             "galaxy.ktx2",
+            "octaves.ktx2",
             "pack.json",
             "sky.ktx2",
+            "skybox.ktx2",
             "stars.ktx2",
             "sun.ktx2"
         ]
@@ -101,7 +107,7 @@ fn a_pack_that_cannot_be_written_leaves_nothing() {
 #[test]
 fn cancelling_leaves_nothing_not_even_new_folders() {
     let place = tempfile::tempdir().unwrap();
-    for steps in 0..7 {
+    for steps in 0..10 {
         let left = std::cell::Cell::new(steps);
         let cancelled = || left.replace(left.get().max(1) - 1) == 0;
         let error = pack()
@@ -180,12 +186,12 @@ fn open_with_manifest(change: impl Fn(&str) -> String) -> String {
 #[test]
 fn another_version_is_refused_for_its_version() {
     let error = open_with_manifest(|text| {
-        text.replace("\"version\": 1", "\"version\": 2")
+        text.replace("\"version\": 2", "\"version\": 1")
             .replace("\"seed\"", "\"seeds\"")
     });
     assert_eq!(
         error,
-        "p/pack.json: version is 2, expected 1; use a welkin that knows this version, or bake again"
+        "p/pack.json: version is 1, expected 2; use a welkin that knows this version, or bake again"
     );
 }
 
@@ -218,22 +224,119 @@ fn images_that_do_not_fit_their_role_are_refused() {
         "clouds.ktx2 format"
     );
     assert_eq!(
-        blamed(&|s| s[1].image = crate::Image::new(128, 128, 1)),
+        blamed(&|s| s[1].images = vec![crate::Image::new(128, 128, 1)]),
         "stars.ktx2 channels"
     );
     assert_eq!(
-        blamed(&|s| s[2].image = crate::Image::new(100, 128, 1)),
+        blamed(&|s| s[2].images = vec![crate::Image::new(100, 128, 1)]),
         "galaxy.ktx2 width"
     );
     assert_eq!(
-        blamed(&|s| s[2].image.texels[7] = f32::NAN),
+        blamed(&|s| s[2].images[0].texels[7] = f32::NAN),
         "galaxy.ktx2 texels"
     );
     assert_eq!(
-        blamed(&|s| s[2].image.texels.truncate(5)),
+        blamed(&|s| s[2].images[0].texels.truncate(5)),
         "galaxy.ktx2 texels"
     );
     assert_eq!(blamed(&|s| s[1] = s[2].clone()), "galaxy.ktx2 role");
+}
+
+#[test]
+fn layers_that_do_not_fit_their_role_are_refused() {
+    let blamed = |role: Role, change: &dyn Fn(&mut Vec<Image>)| {
+        let mut sources = sources();
+        let source = sources.iter_mut().find(|s| s.role == role);
+        change(&mut source.unwrap().images);
+        Pack::build(info(), sources).unwrap_err().to_string()
+    };
+    assert_eq!(
+        blamed(Role::Octaves, &|i| i[0] = Image::new(64, 64, 4)),
+        "octaves.ktx2: width is 64, expected 32"
+    );
+    assert_eq!(
+        blamed(Role::Octaves, &|i| i.push(i[0].clone())),
+        "octaves.ktx2: layers is 2, expected 1"
+    );
+    assert_eq!(
+        blamed(Role::Fbm, &|i| i.resize(9, i[0].clone())),
+        "fbm.ktx2: layers is 9, expected 1 to 8"
+    );
+    assert_eq!(
+        blamed(Role::Fbm, &|i| i[1] = Image::new(128, 128, 4)),
+        "fbm.ktx2: images is 128x128, expected 64x64, as the first"
+    );
+    assert_eq!(
+        blamed(Role::Fbm, &|i| i[0] = Image::new(128, 64, 4)),
+        "fbm.ktx2: height is 64, expected 128, as the width"
+    );
+    assert_eq!(
+        blamed(Role::Fbm, &|i| i[1].texels[3] = f32::INFINITY),
+        "fbm.ktx2: texels is inf at 3, expected finite values"
+    );
+    assert_eq!(
+        blamed(Role::Fbm, &Vec::clear),
+        "fbm.ktx2: width is 0, expected a power of two from 64 to 1024"
+    );
+    assert_eq!(
+        blamed(Role::Flares, &|i| i[0] = Image::new(32, 32, 1)),
+        "flares.ktx2: width is 32, expected a power of two from 64 to 1024"
+    );
+}
+
+/// A source of `layers` images of noise.
+fn noisy(role: Role, size: u32, layers: u32, seed: u64) -> Source {
+    let mut stream = Stream::new(seed);
+    let format = role.spec().formats[0];
+    let images = (0..layers).map(|_| {
+        let mut image = Image::new(size, size, format.channels());
+        image.texels.iter_mut().for_each(|v| *v = stream.unit());
+        image
+    });
+    Source {
+        role,
+        format,
+        images: images.collect(),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn every_layer_has_the_levels_that_it_would_have_alone(layers in 1_u32..=8, seed in any::<u64>()) {
+        for (role, layers) in [(Role::Fbm, layers), (Role::Skybox, 6)] {
+            let source = noisy(role, 64, layers, seed);
+            let pack = Pack::build(info(), vec![source.clone()]).unwrap();
+            let texture = pack.texture(role).unwrap();
+            prop_assert_eq!(texture.layers, layers);
+            for (layer, image) in (0..).zip(source.images) {
+                let mut level = image;
+                for index in 0..texture.levels.len() {
+                    if index > 0 {
+                        level = crate::mip::halve(&level);
+                    }
+                    let found = texture.image(index, layer);
+                    prop_assert_eq!((found.width, found.height), (level.width, level.height));
+                    let stored = crate::texture::encode(texture.format, &level.texels);
+                    prop_assert_eq!(crate::texture::encode(texture.format, &found.texels), stored);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_manifests_figures_are_of_all_layers(layers in 1_u32..=8, seed in any::<u64>()) {
+        let pack = Pack::build(info(), vec![noisy(Role::Fbm, 64, layers, seed)]).unwrap();
+        let texture = pack.texture(Role::Fbm).unwrap();
+        let entry = pack.manifest().texture(Role::Fbm).unwrap();
+        prop_assert_eq!(entry.layers, layers);
+        for (index, channel) in entry.channels.iter().enumerate() {
+            let means = (0..layers).map(|layer| texture.image(0, layer).mean_and_spread(index).0);
+            let mean = means.sum::<f32>() / layers as f32;
+            prop_assert!((channel.mean - mean).abs() < 1e-6);
+        }
+    }
 }
 
 #[test]

@@ -1,10 +1,11 @@
 //! The roles of the textures in a pack and what each of their channels means.
 
+mod specs;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::texel::StarTexel;
-use crate::{Format, Shape};
+use crate::{Format, PackError, Shape};
 
 /// What a texture is for.
 #[derive(
@@ -22,6 +23,14 @@ pub enum Role {
     Sky,
     /// The sun's disc and its glow.
     Sun,
+    /// White noise for the octaves of Guthikonda and others.
+    Octaves,
+    /// Smooth noise, an octave a layer, of Quilez.
+    Fbm,
+    /// The parts of a lens flare.
+    Flares,
+    /// A picture of a sky around the viewer.
+    Skybox,
 }
 
 /// How a texture is addressed outside 0..1.
@@ -64,8 +73,12 @@ pub struct RoleSpec {
     pub formats: &'static [Format],
     /// Arrangement.
     pub shape: Shape,
-    /// Default width and height in texels.
+    /// Default width and height in texels. Where they are equal, they always are.
     pub size: [u32; 2],
+    /// Least and greatest side in texels; every side is a power of two.
+    pub sides: [u32; 2],
+    /// Least and greatest number of images a level.
+    pub layers: [u32; 2],
     /// Whether it has a full chain of levels, or one alone.
     pub mips: bool,
     /// Addressing.
@@ -76,136 +89,18 @@ pub struct RoleSpec {
     pub channels: &'static [ChannelSpec],
 }
 
-const fn channel(
-    name: &'static str,
-    meaning: &'static str,
-    unit: &'static str,
-    max: f32,
-) -> ChannelSpec {
-    ChannelSpec {
-        name,
-        meaning,
-        unit,
-        range: [0.0, max],
-    }
-}
-
-const CLOUDS: RoleSpec = RoleSpec {
-    formats: &[Format::Rgba8Unorm, Format::Rgba16Float],
-    shape: Shape::D2,
-    size: [512, 512],
-    mips: true,
-    wrap: Wrap::Repeat,
-    filter: Filter::Linear,
-    channels: &[
-        channel("photo", "cloud amount from a photograph", "1", 1.0),
-        channel("noise", "cloud amount from fractal noise", "1", 1.0),
-        channel("detail", "finer fractal noise", "1", 1.0),
-        channel(
-            "gradient",
-            "sunset tint, from away from the sun (top row) to below it (bottom row)",
-            "1",
-            1.0,
-        ),
-    ],
-};
-
-const STARS: RoleSpec = RoleSpec {
-    formats: &[Format::Rgba8Unorm],
-    shape: Shape::D2,
-    size: [256, 256],
-    mips: true,
-    wrap: Wrap::Repeat,
-    filter: Filter::Nearest,
-    channels: &[
-        channel(
-            "intensity",
-            "mean intensity of the star, 0 where there is none",
-            "1",
-            1.0,
-        ),
-        channel("rate", "flicker rate", "Hz", StarTexel::MAX_RATE_HZ),
-        channel(
-            "variance",
-            "flicker amplitude, in the unit of intensity",
-            "1",
-            1.0,
-        ),
-        channel("phase", "place in the flicker cycle at time 0", "turn", 1.0),
-    ],
-};
-
-const GALAXY: RoleSpec = RoleSpec {
-    formats: &[Format::R8Unorm],
-    shape: Shape::D2,
-    size: [128, 128],
-    mips: true,
-    wrap: Wrap::Clamp,
-    filter: Filter::Linear,
-    channels: &[channel("brightness", "brightness of the galaxy", "1", 1.0)],
-};
-
-const SKY: RoleSpec = RoleSpec {
-    formats: &[Format::Rgba16Float],
-    shape: Shape::D2,
-    size: [128, 64],
-    mips: false,
-    wrap: Wrap::Repeat,
-    filter: Filter::Linear,
-    channels: &[
-        channel(
-            "red",
-            "radiance of the clear sky, linear BT.709, red",
-            "white of a sunlit cloud at noon",
-            1.0,
-        ),
-        channel(
-            "green",
-            "radiance of the clear sky, linear BT.709, green",
-            "white of a sunlit cloud at noon",
-            1.0,
-        ),
-        channel(
-            "blue",
-            "radiance of the clear sky, linear BT.709, blue",
-            "white of a sunlit cloud at noon",
-            1.0,
-        ),
-        channel(
-            "night",
-            "share of the night sky that shows through, 0 by day",
-            "1",
-            1.0,
-        ),
-    ],
-};
-
-const SUN: RoleSpec = RoleSpec {
-    formats: &[Format::Rg8Unorm],
-    shape: Shape::D2,
-    size: [128, 128],
-    mips: true,
-    wrap: Wrap::Clamp,
-    filter: Filter::Linear,
-    channels: &[
-        channel(
-            "disc",
-            "the sun's disc with limb darkening; its edge is half way from centre to side",
-            "1",
-            1.0,
-        ),
-        channel("glow", "the glow around the sun, 0 at the sides", "1", 1.0),
-    ],
-};
-
 impl Role {
     /// Every role, in the order in which a manifest lists them.
-    pub const ALL: [Role; 5] = [
+    pub const ALL: [Role; 9] = [
         Role::Clouds,
         Role::Stars,
         Role::Galaxy,
         Role::Sky,
         Role::Sun,
+        Role::Octaves,
+        Role::Fbm,
+        Role::Flares,
+        Role::Skybox,
     ];
 
     /// The name used in manifests, recipes and file names.
@@ -216,22 +111,79 @@ impl Role {
             Role::Galaxy => "galaxy",
             Role::Sky => "sky",
             Role::Sun => "sun",
+            Role::Octaves => "octaves",
+            Role::Fbm => "fbm",
+            Role::Flares => "flares",
+            Role::Skybox => "skybox",
         }
     }
 
     /// What the role asks of its texture.
     pub const fn spec(self) -> &'static RoleSpec {
         match self {
-            Role::Clouds => &CLOUDS,
-            Role::Stars => &STARS,
-            Role::Galaxy => &GALAXY,
-            Role::Sky => &SKY,
-            Role::Sun => &SUN,
+            Role::Clouds => &specs::CLOUDS,
+            Role::Stars => &specs::STARS,
+            Role::Galaxy => &specs::GALAXY,
+            Role::Sky => &specs::SKY,
+            Role::Sun => &specs::SUN,
+            Role::Octaves => &specs::OCTAVES,
+            Role::Fbm => &specs::FBM,
+            Role::Flares => &specs::FLARES,
+            Role::Skybox => &specs::SKYBOX,
         }
+    }
+
+    /// Whether a pack may do without it.
+    pub const fn is_optional(self) -> bool {
+        matches!(self, Role::Skybox)
     }
 
     /// The file that holds it in a pack.
     pub fn file(self) -> String {
         format!("{}.ktx2", self.name())
+    }
+}
+
+impl RoleSpec {
+    /// Compares the size of a texture with what the role asks. `file` names it in the error, `at` is what
+    /// stands before the key.
+    pub(crate) fn verify_size(
+        &self,
+        file: &str,
+        at: &str,
+        [width, height, layers]: [u32; 3],
+    ) -> Result<(), PackError> {
+        let bad = |key: &str, found: u32, expected: String| {
+            Err(PackError::value(
+                file,
+                &format!("{at}{key}"),
+                found,
+                expected,
+            ))
+        };
+        let [least, most] = self.sides;
+        for (key, side) in [("width", width), ("height", height)] {
+            if !side.is_power_of_two() || !(least..=most).contains(&side) {
+                let expected = if least == most {
+                    least.to_string()
+                } else {
+                    format!("a power of two from {least} to {most}")
+                };
+                return bad(key, side, expected);
+            }
+        }
+        if self.size[0] == self.size[1] && width != height {
+            return bad("height", height, format!("{width}, as the width"));
+        }
+        let [least, most] = self.layers;
+        if !(least..=most).contains(&layers) {
+            let expected = if least == most {
+                least.to_string()
+            } else {
+                format!("{least} to {most}")
+            };
+            return bad("layers", layers, expected);
+        }
+        Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! A small pack that breaks no rule, for tests to break.
 
-use crate::mapping::galaxy_uv_to_direction;
+use crate::mapping::{FBM_STEPS_A_TILE, cube_to_direction, galaxy_uv_to_direction};
 use crate::{Format, Image, Pack, PackInfo, Role, Source, StarTexel};
 
 /// A stream of numbers in 0..1: a 64-bit linear congruential generator (D. E. Knuth, MMIX), upper bits.
@@ -36,17 +36,21 @@ pub(crate) fn info() -> PackInfo {
 }
 
 pub(crate) fn sources() -> Vec<Source> {
-    let source = |role: Role, image| Source {
+    let source = |role: Role, images| Source {
         role,
         format: role.spec().formats[0],
-        image,
+        images,
     };
     vec![
-        source(Role::Clouds, clouds(64)),
-        source(Role::Stars, stars(128, 500)),
-        source(Role::Galaxy, galaxy(32)),
-        source(Role::Sky, sky(64, 16)),
-        source(Role::Sun, sun(32)),
+        source(Role::Clouds, vec![clouds(64)]),
+        source(Role::Stars, vec![stars(128, 500)]),
+        source(Role::Galaxy, vec![galaxy(32)]),
+        source(Role::Sky, vec![sky(64, 16)]),
+        source(Role::Sun, vec![sun(32)]),
+        source(Role::Octaves, vec![octaves()]),
+        source(Role::Fbm, fbm()),
+        source(Role::Flares, vec![flares(64)]),
+        source(Role::Skybox, (0..6).map(|face| skybox(face, 16)).collect()),
     ]
 }
 
@@ -172,11 +176,98 @@ fn sun(size: u32) -> Image {
     image
 }
 
+fn octaves() -> Image {
+    let mut image = Image::new(32, 32, 4);
+    let mut stream = Stream::new(21);
+    for channel in 0..4 {
+        // Every byte four times, in an order shuffled by Fisher and Yates.
+        let mut values: Vec<u8> = (0..1024).map(|i| (i / 4) as u8).collect();
+        for last in (1..1024_u32).rev() {
+            values.swap(last as usize, stream.below(last + 1) as usize);
+        }
+        for (texel, value) in image.texels.chunks_exact_mut(4).zip(values) {
+            texel[channel] = f32::from(value) / 255.0;
+        }
+    }
+    image
+}
+
+/// Random values at `cells` lattice points a side, between them a smooth step.
+pub(crate) fn noise(size: u32, cells: u32) -> Image {
+    let mut stream = Stream::new(u64::from(cells));
+    let lattice: Vec<f32> = (0..cells * cells).map(|_| stream.unit()).collect();
+    let at = |x: u32, y: u32| lattice[((y % cells) * cells + x % cells) as usize];
+    let step = size / cells;
+    let smooth = |i: u32| {
+        let t = (i % step) as f32 / step as f32;
+        t * t * (3.0 - 2.0 * t)
+    };
+    let mut image = Image::new(size, size, 1);
+    for (y, x) in (0..size).flat_map(|y| (0..size).map(move |x| (y, x))) {
+        let (i, j) = (x / step, y / step);
+        let row = |j: u32| at(i, j) + (at(i + 1, j) - at(i, j)) * smooth(x);
+        image.texel_mut(x, y)[0] = row(j) + (row(j + 1) - row(j)) * smooth(y);
+    }
+    image
+}
+
+/// A layer of the role `fbm`: noise, and the same displaced.
+pub(crate) fn displaced(noise: &Image) -> Image {
+    let size = noise.width;
+    let mut image = Image::new(size, size, 4);
+    for (i, texel) in (0..).zip(image.texels.chunks_exact_mut(4)) {
+        let (x, y) = (i % size, i / size);
+        for (steps, value) in (0..4).rev().zip(texel) {
+            *value = noise.texel((x + steps * size / FBM_STEPS_A_TILE) % size, y)[0];
+        }
+    }
+    image
+}
+
+pub(crate) fn fbm() -> Vec<Image> {
+    [8, 16].map(|cells| displaced(&noise(64, cells))).into()
+}
+
+fn flares(size: u32) -> Image {
+    let mut image = Image::new(size, size, 1);
+    let cell = size / 2;
+    for y in 0..size {
+        for x in 0..size {
+            let unit = |i: u32| ((i % cell) as f32 + 0.5) / cell as f32 * 2.0 - 1.0;
+            let radius = libm::sqrtf(unit(x) * unit(x) + unit(y) * unit(y));
+            image.texel_mut(x, y)[0] = ((0.8 - radius) / 0.2).clamp(0.0, 1.0);
+        }
+    }
+    image
+}
+
+/// A colour that changes smoothly with the direction, so that faces meet.
+fn skybox(face: u32, size: u32) -> Image {
+    let mut image = Image::new(size, size, 4);
+    for y in 0..size {
+        for x in 0..size {
+            let st = [x, y].map(|i| (i as f32 + 0.5) / size as f32);
+            let [east, up, south] = cube_to_direction(face, st);
+            image.texel_mut(x, y).copy_from_slice(&[
+                1.0 + 0.5 * east,
+                1.0 + 0.8 * up,
+                1.0 + 0.6 * south,
+                0.7 + 0.3 * up,
+            ]);
+        }
+    }
+    image
+}
+
 /// Level 0 of every texture of a pack with one of them changed, built into a pack with true hashes.
 pub(crate) fn with(role: Role, change: impl FnOnce(&mut Image)) -> Pack {
+    with_images(role, |images| change(&mut images[0]))
+}
+
+/// The same with all layers of the texture to change.
+pub(crate) fn with_images(role: Role, change: impl FnOnce(&mut Vec<Image>)) -> Pack {
     let mut sources = sources();
-    let source = sources.iter_mut().find(|s| s.role == role).unwrap();
-    change(&mut source.image);
+    change(&mut sources.iter_mut().find(|s| s.role == role).unwrap().images);
     Pack::build(info(), sources).unwrap()
 }
 
@@ -185,7 +276,7 @@ pub(crate) fn with_texture(role: Role, change: impl FnOnce(&mut crate::Texture))
     let pack = pack();
     let mut textures: Vec<_> = Role::ALL
         .iter()
-        .map(|r| (*r, pack.texture(*r).unwrap().clone()))
+        .filter_map(|r| Some((*r, pack.texture(*r)?.clone())))
         .collect();
     change(&mut textures.iter_mut().find(|(r, _)| *r == role).unwrap().1);
     Pack::from_textures(info(), textures).unwrap()

@@ -119,15 +119,12 @@ impl SkyTexel {
     /// The nearest RGBA16F texel, little-endian.
     pub fn encode(self) -> [u8; 8] {
         let [r, g, b] = self.radiance;
-        let mut bytes = [0; 8];
-        bytes.copy_from_slice(&encode(Format::Rgba16Float, &[r, g, b, self.night]));
-        bytes
+        halves([r, g, b, self.night])
     }
 
     /// Reads an RGBA16F texel.
     pub fn decode(bytes: [u8; 8]) -> SkyTexel {
-        let [r, g, b, night] =
-            [0, 2, 4, 6].map(|i| half::f16::from_le_bytes([bytes[i], bytes[i + 1]]).to_f32());
+        let [r, g, b, night] = from_halves(bytes);
         SkyTexel {
             radiance: [r, g, b],
             night,
@@ -157,6 +154,114 @@ impl SunTexel {
     }
 }
 
+/// A texel of the role `octaves`: white noise, every value of a channel equally often.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OctaveTexel {
+    /// Noise of the octaves 1 to 4, 0..1 each.
+    pub noise: [f32; 4],
+}
+
+impl OctaveTexel {
+    /// The nearest RGBA8 texel.
+    pub fn encode(self) -> [u8; 4] {
+        self.noise.map(unorm8)
+    }
+
+    /// Reads an RGBA8 texel.
+    pub fn decode(bytes: [u8; 4]) -> OctaveTexel {
+        OctaveTexel {
+            noise: bytes.map(|b| f32::from(b) / 255.0),
+        }
+    }
+}
+
+/// A texel of the role `fbm`, in memory order: the noise at four points of a ray towards the sun.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FbmTexel {
+    /// The noise three steps away.
+    pub steps3: f32,
+    /// The noise two steps away.
+    pub steps2: f32,
+    /// The noise one step away.
+    pub steps1: f32,
+    /// The noise here, 0..1.
+    pub noise: f32,
+}
+
+impl FbmTexel {
+    /// The nearest RGBA8 texel.
+    pub fn encode(self) -> [u8; 4] {
+        [self.steps3, self.steps2, self.steps1, self.noise].map(unorm8)
+    }
+
+    /// Reads an RGBA8 texel.
+    pub fn decode(bytes: [u8; 4]) -> FbmTexel {
+        let [steps3, steps2, steps1, noise] = bytes.map(|b| f32::from(b) / 255.0);
+        FbmTexel {
+            steps3,
+            steps2,
+            steps1,
+            noise,
+        }
+    }
+}
+
+/// A texel of the role `flares`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FlareTexel {
+    /// Light, 0 none to 1 the brightest.
+    pub light: f32,
+}
+
+impl FlareTexel {
+    /// The nearest R8 texel.
+    pub fn encode(self) -> [u8; 1] {
+        [unorm8(self.light)]
+    }
+
+    /// Reads an R8 texel.
+    pub fn decode(bytes: [u8; 1]) -> FlareTexel {
+        let [light] = bytes.map(|b| f32::from(b) / 255.0);
+        FlareTexel { light }
+    }
+}
+
+/// A texel of the role `skybox`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SkyboxTexel {
+    /// Radiance of the picture times its cover, linear BT.709; 1 is the white of a sunlit cloud at noon.
+    pub radiance: [f32; 3],
+    /// Share of the picture, 0 (the computed sky) to 1 (the picture alone).
+    pub cover: f32,
+}
+
+impl SkyboxTexel {
+    /// The nearest RGBA16F texel, little-endian.
+    pub fn encode(self) -> [u8; 8] {
+        let [r, g, b] = self.radiance;
+        halves([r, g, b, self.cover])
+    }
+
+    /// Reads an RGBA16F texel.
+    pub fn decode(bytes: [u8; 8]) -> SkyboxTexel {
+        let [r, g, b, cover] = from_halves(bytes);
+        SkyboxTexel {
+            radiance: [r, g, b],
+            cover,
+        }
+    }
+}
+
+fn halves(values: [f32; 4]) -> [u8; 8] {
+    let mut bytes = [0; 8];
+    bytes.copy_from_slice(&encode(Format::Rgba16Float, &values));
+    bytes
+}
+
+fn from_halves(bytes: [u8; 8]) -> [f32; 4] {
+    [0, 2, 4, 6].map(|i| half::f16::from_le_bytes([bytes[i], bytes[i + 1]]).to_f32())
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
@@ -172,6 +277,9 @@ mod tests {
             let [a, b, ..] = bytes;
             prop_assert_eq!(GalaxyTexel::decode([a]).encode(), [a]);
             prop_assert_eq!(SunTexel::decode([a, b]).encode(), [a, b]);
+            prop_assert_eq!(OctaveTexel::decode(bytes).encode(), bytes);
+            prop_assert_eq!(FbmTexel::decode(bytes).encode(), bytes);
+            prop_assert_eq!(FlareTexel::decode([a]).encode(), [a]);
         }
 
         #[test]
@@ -183,6 +291,7 @@ mod tests {
                 to.copy_from_slice(&from.to_le_bytes());
             }
             prop_assert_eq!(SkyTexel::decode(bytes).encode(), bytes);
+            prop_assert_eq!(SkyboxTexel::decode(bytes).encode(), bytes);
         }
 
         #[test]

@@ -57,6 +57,20 @@ impl Texture {
         }
     }
 
+    /// All images of one level, one below the other, as one image.
+    ///
+    /// # Panics
+    /// If the level does not exist.
+    pub fn stacked(&self, level: usize) -> Image {
+        let (width, height) = self.level_size(level);
+        Image {
+            width,
+            height: height * self.layers,
+            channels: self.format.channels(),
+            texels: decode(self.format, &self.levels[level]),
+        }
+    }
+
     /// BLAKE3 of all decoded texels: level 0 first, each level as it is stored here.
     pub fn blake3(&self) -> blake3::Hash {
         let mut hasher = blake3::Hasher::new();

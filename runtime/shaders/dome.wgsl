@@ -3,15 +3,16 @@
 struct DomeHit {
     plane: vec2f,       // east and south, in heights of the cloud layer
     distance: f32,      // in the same unit
-    root: f32,          // over (radius + 1): cosine of the angle between ray and normal
+    slant: f32,         // times (radius + 1): 1 / cosine of the angle between ray and normal
 }
 
 // The cloud dome along a unit direction.
 fn dome_intersect(direction: vec3f) -> DomeHit {
     let ry = CLOUD_SPHERE_RADIUS * direction.y;
-    let root = sqrt(ry * ry + (2.0 * CLOUD_SPHERE_RADIUS + 1.0));
-    let distance = root - ry;
-    return DomeHit(direction.xz * distance, distance, root);
+    let square = ry * ry + (2.0 * CLOUD_SPHERE_RADIUS + 1.0);
+    let slant = inverseSqrt(square);
+    let distance = square * slant - ry;
+    return DomeHit(direction.xz * distance, distance, slant);
 }
 
 // A unit direction on the plane of Lambert's equal-area projection about the zenith.

@@ -10,6 +10,9 @@ fn fs_sky(in: Varyings) -> @location(0) vec4f {
         radiance += night * smoothstep(0.0, EXTINCTION, direction.y);
     }
     radiance += sun_radiance(direction);
+    if SKYBOX {
+        radiance = skybox_mix(radiance, direction);
+    }
     if direction.y > 0.0 {
         let clouds = cloud_layer(direction);
         radiance = mix(radiance, clouds.rgb, clouds.a);

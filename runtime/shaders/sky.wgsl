@@ -3,7 +3,7 @@ struct SkyUniforms {
     gradient: vec4f, // x: u of the time; y, z: v = y + z * sqrt(sin elevation); w: share of the night sky
     sun: vec4f,      // xyz: unit direction towards the sun
     wide: vec4f,     // rgb: radiance of the wide lobe towards the sun; w: its sharpness
-    narrow: vec4f,   // the same for the narrow lobe
+    narrow: vec4f,   // rgb: radiance of the narrow lobe
     band: vec4f,     // rgb: radiance of the twilight band on the horizon; w: how fast it fades upwards
     overcast: vec4f, // rgb: radiance of a shut sky; w: how far the sky is shut
 }
@@ -15,12 +15,17 @@ fn sky_radiance(direction: vec3f) -> vec3f {
     var radiance = textureSampleLevel(sky_texture, repeat_sampler, uv, 0.0).rgb;
 
     let from_sun = dot(direction, sky.sun.xyz) - 1.0;
-    radiance += sky.wide.rgb * exp2(sky.wide.w * from_sun);
-    radiance += sky.narrow.rgb * exp2(sky.narrow.w * from_sun);
-    let side = 0.5 + 0.5 * dot(direction.xz, uniforms.clouds.gradient.xy);
-    radiance += sky.band.rgb * (side * side * exp2(-sky.band.w * abs(direction.y)));
-
+    let wide = exp2(sky.wide.w * from_sun);
+    // The narrow lobe is the wide one's twelfth power: three squares cost less than an exponential.
+    let wide_4 = (wide * wide) * (wide * wide);
+    radiance += sky.wide.rgb * wide + sky.narrow.rgb * (wide_4 * wide_4 * wide_4);
+    if sky.band.r > 0.0 {
+        let side = 0.5 + 0.5 * dot(direction.xz, uniforms.clouds.gradient.xy);
+        radiance += sky.band.rgb * (side * side * exp2(-sky.band.w * abs(direction.y)));
+    }
     radiance = mix(radiance, sky.overcast.rgb, sky.overcast.w);
-    let below = max(-direction.y, 0.0);
-    return radiance * (GROUND_FLOOR + (1.0 - GROUND_FLOOR) / (1.0 + GROUND_FALL * below));
+    if direction.y < 0.0 {
+        radiance *= GROUND_FLOOR + (1.0 - GROUND_FLOOR) / (1.0 - GROUND_FALL * direction.y);
+    }
+    return radiance;
 }

@@ -8,9 +8,12 @@ struct SunUniforms {
 
 fn sun_radiance(direction: vec3f) -> vec3f {
     let sun = uniforms.sun;
+    if sun.up.w == 0.0 {
+        return vec3f(0.0);
+    }
     let place = vec2f(dot(direction, sun.right.xyz), -dot(direction, sun.up.xyz));
     let ahead = dot(direction, uniforms.sky.sun.xyz) > 0.0;
-    if sun.up.w == 0.0 || !ahead || max(abs(place.x), abs(place.y)) >= 1.0 {
+    if !ahead || max(abs(place.x), abs(place.y)) >= 1.0 {
         return vec3f(0.0);
     }
     let glow = textureSampleLevel(sun_texture, clamp_sampler, 0.5 + 0.5 * place, sun.glow.w).g;

@@ -32,5 +32,6 @@ fn finish(radiance: vec3f, pixel: vec2f) -> vec4f {
     }
     // The hardware encodes. Around a value x a step of the encoding is as wide as its slope there, and
     // 2 sqrt(x) is the slope of the curve's near relative, the square.
-    return vec4f(display + step * (2.0 * sqrt(display) + abs(step)), 1.0);
+    let root = display * inverseSqrt(max(display, vec3f(1e-6)));
+    return vec4f(display + step * (2.0 * root + abs(step)), 1.0);
 }

@@ -6,7 +6,12 @@ struct Uniforms {
     sun: SunUniforms,
     stars: StarUniforms,
     galaxy: GalaxyUniforms,
+    skybox: SkyboxUniforms,
     clouds: CloudUniforms,
+    packed: PackedUniforms,
+    octaves: OctaveUniforms,
+    fbm: FbmUniforms,
+    flares: FlareUniforms,
     tonemap: TonemapUniforms,
 }
 
@@ -22,3 +27,9 @@ override UPPER_LAYER: bool = true;
 @group(0) @binding(5) var galaxy_texture: texture_2d<f32>;
 @group(0) @binding(6) var sky_texture: texture_2d<f32>;
 @group(0) @binding(7) var sun_texture: texture_2d<f32>;
+@group(0) @binding(8) var flares_texture: texture_2d<f32>;
+@group(0) @binding(9) var skybox_texture: texture_cube<f32>;
+
+// What a method adds: to the dome its map; to an off-screen pass the texture that it reads.
+@group(1) @binding(0) var map_texture: texture_2d<f32>;
+@group(1) @binding(1) var layers_texture: texture_2d_array<f32>;

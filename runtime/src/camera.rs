@@ -1,6 +1,7 @@
 //! The camera: where each pixel looks.
 //!
-//! Only directions matter, since the sky is centred on the viewer. A pixel's direction is linear in
+//! The sky is centred on the viewer, so directions are nearly all; where the viewer stands moves the clouds
+//! of near layers against those of far ones. A pixel's direction is linear in
 //! its place on the screen before it is normalised: `forward + x right + y up`, with x, y in -1..1.
 
 use glam::{Mat4, Quat, Vec2, Vec3};
@@ -18,6 +19,8 @@ pub struct Camera {
     pub lens_shift: Vec2,
     /// Width and height of the target in pixels.
     pub viewport_px: [u32; 2],
+    /// Where the viewer stands, in metres from the origin of the world; what is not finite counts as 0.
+    pub position_m: Vec3,
 }
 
 /// The field of view is kept inside this range, in radians: a tangent is neither 0 nor infinite.
@@ -48,16 +51,17 @@ impl Camera {
             aspect: viewport_px[0].max(1) as f32 / viewport_px[1].max(1) as f32,
             lens_shift: Vec2::ZERO,
             viewport_px,
+            position_m: Vec3::ZERO,
         }
     }
 
     /// The camera of an application's own matrices.
     ///
-    /// `view` takes the world to a camera that looks along -Z (translation and uniform scale are
-    /// ignored), `projection` is a right-handed perspective to wgpu's clip space, standard or
+    /// `view` takes the world, in metres, to a camera that looks along -Z, `projection` is a right-handed perspective to wgpu's clip space, standard or
     /// reversed depth, finite or infinite, centred or not.
     pub fn from_matrices(view: Mat4, projection: Mat4, viewport_px: [u32; 2]) -> Camera {
         let (_, rotation, _) = view.to_scale_rotation_translation();
+        let position_m = view.inverse().w_axis.truncate();
         let (x_scale, y_scale) = (projection.x_axis.x, projection.y_axis.y);
         Camera {
             orientation: rotation.inverse(),
@@ -65,6 +69,16 @@ impl Camera {
             aspect: y_scale / x_scale,
             lens_shift: Vec2::new(projection.z_axis.x, projection.z_axis.y),
             viewport_px,
+            position_m,
+        }
+    }
+
+    /// Where the viewer stands, in metres.
+    pub fn position_m(&self) -> Vec3 {
+        if self.position_m.is_finite() {
+            self.position_m
+        } else {
+            Vec3::ZERO
         }
     }
 
@@ -148,6 +162,11 @@ mod tests {
                 "{a:?} {b:?}"
             );
             assert!(a.forward.abs_diff_eq(b.forward, 1e-5), "{a:?} {b:?}");
+            let stands = Camera::from_matrices(view, projection, PX).position_m();
+            assert!(
+                stands.abs_diff_eq(Vec3::new(-4.0, -2.0, 9.0), 1e-5),
+                "{stands}"
+            );
         }
     }
 

@@ -1,75 +1,42 @@
-//! Clouds: the cloud shader of Roden and Parberry (ACE 2005, section 3.1) on the packed texture.
+//! What the clouds of every method share: their light, the sunset tint, the haze, and how the sky is shut.
 //!
 //! # Theory
-//! Photo and noise are blended, cover cuts from below and stretches the rest (lines 14-17), detail
-//! brightens and, where clouds are not dense, roughens (18-19), density darkens thick parts by folding
-//! brightness at 1 (20-24), the gradient tints the sun's side (26-27), sunlight lights it all (28).
-//! Height scales the coordinates, speed moves them; photo and noise move in slightly different
-//! directions at slightly different speeds, so that shapes change (section 3.2).
+//! Roden and Parberry (ACE 2005, section 3.1): the gradient tints the sun's side (lines 26-27), sunlight
+//! lights it all (28). Clouds fade towards the horizon, as haze takes them.
 //!
 //! # Changes versus the paper
-//! - Coordinates come from the hit with the cloud dome, not from a mesh ([`crate::dome`]). Noise is
-//!   turned and scaled against the photo by irrational amounts, so that their sum does not repeat.
-//! - The level of detail is computed: no derivatives, so every read may stand in a branch.
-//! - Opacity is softened at its foot, `a^2 (1 + e) / (a + e)`: the paper's rises with a kink that shows
-//!   each texel of a cloud's edge.
 //! - The paper's grey is display-referred; its square is taken as reflected sunlight, itself as skylight.
-//! - The fold of brightness at 1 is rounded ([`FOLD`]): its kink draws a bright line into dense clouds.
 //! - Cores are never black: [`CORE`] is what the paper's black becomes.
-//! - The paper's cover 1 leaves holes where both channels are 0. Above 0.8 the cut of line 15 goes on below 0,
-//!   detail no longer pierces, and less sunlight comes through: an overcast sky is shut.
-//! - Clouds fade towards the horizon, as haze takes them.
-//! - The thin upper layer (figure 5) is laid behind the lower one instead of added to it.
+//! - Cover above 0.8 shuts the sky: see [`closing`].
 //!
 //! # Practice
-//! Three trilinear reads; one bilinear with sunset above 0, one more trilinear with the upper layer on.
+//! No read of its own by day; one bilinear with sunset above 0.
 
-use glam::{DVec2, Vec2, Vec3, Vec4};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::SkyParams;
 use crate::light::{Light, luminance, smoothstep};
 use crate::uniforms::{CloudUniforms, vec4};
 
-/// How soft the foot of the opacity is: below it the opacity rises as a square, above it in a line.
-pub const EDGE: f32 = 0.12;
-/// How far from 1 the fold of brightness (lines 22-23) is rounded.
-pub const FOLD: f32 = 0.15;
 /// What the darkest core of a cloud, the paper's black, still scatters: display-referred.
 pub const CORE: f32 = 0.3;
 /// Sine of the elevation at which clouds have come out of the haze of the horizon, and the same of a shut sky.
 const HAZE: [f32; 2] = [0.20, 0.08];
-/// Opacity of the upper layer where its noise is 1.
-pub const UPPER_OPACITY: f32 = 0.75;
-/// Noise below this gives no upper cloud.
-pub const UPPER_THRESHOLD: f32 = 0.12;
 
-/// Cover from which the sky closes, and the amount of cloud that it has everywhere at cover 1.
+/// Cover from which the sky closes.
 const CLOSING: f32 = 0.8;
-const OVERCAST: f32 = 0.75;
 /// Share of sunlight that a shut sky keeps from its own underside.
 const SHADE: f32 = 0.4;
 
-/// Tiles of the photo a height of the layer, at height 0 and 1: a tile spans 7 and 2.75 heights.
-const SCALE: [f32; 2] = [1.0 / 7.0, 1.0 / 2.75];
-/// Scale of the noise and of the detail against that of the photo.
-const NOISE_SCALE: f64 = 0.763;
-const DETAIL_SCALE: f64 = 3.618;
-/// Turn of the noise against the photo, in radians.
-const NOISE_TURN: f64 = 0.6543;
-/// Scale of the upper layer to the east and to the south, in tiles a height: streaks lie east to west.
-const UPPER_SCALE: [f64; 2] = [0.11, 0.43];
-
 /// Wind at speed 1 in heights of the layer a second: 2.3 degrees a second overhead.
-const MAX_WIND: f64 = 0.04;
-/// Where the wind carries the photo (east, south), and the noise, which is a little faster.
-const PHOTO_WIND: DVec2 = DVec2::new(0.80, 0.60);
-const NOISE_WIND: DVec2 = DVec2::new(0.97, 0.62);
-const UPPER_WIND: DVec2 = DVec2::new(0.45, -0.12);
+pub(crate) const MAX_WIND: f64 = 0.04;
 
-/// Where the textures lie at time 0, so that no tile's corner is overhead.
-const PHOTO_START: DVec2 = DVec2::new(0.37, 0.21);
-const NOISE_START: DVec2 = DVec2::new(0.13, 0.58);
-const UPPER_START: DVec2 = DVec2::new(0.71, 0.44);
+/// Height of the lowest clouds over the ground, in metres: cumulus of a fair day. World Meteorological Organization,
+/// "International Cloud Atlas", 2017, gives low clouds 0 to 2 km.
+pub const LOW_HEIGHT_M: f64 = 1000.0;
+
+/// The nearest that a layer comes, in its heights.
+const LEAST_DISTANCE: f64 = 0.05;
 
 /// Display-referred colour of the sunset gradient at its full strength.
 const SUNSET_TINT: Vec3 = Vec3::new(1.0, 0.47, 0.24);
@@ -83,83 +50,60 @@ pub struct CloudView {
     pub pixel_rad: f32,
     /// Time in seconds.
     pub seconds: f64,
+    /// Where the viewer stands: metres to the east, up and to the south.
+    pub place_m: DVec3,
 }
 
-/// The clouds' share of the uniforms. `params` are in range.
-pub fn uniforms(params: &SkyParams, light: &Light, view: CloudView) -> CloudUniforms {
-    let scale = f64::from(SCALE[0] + (SCALE[1] - SCALE[0]) * params.height);
-    let way = MAX_WIND * f64::from(params.speed) * view.seconds;
-    let (sin, cos) = NOISE_TURN.sin_cos();
-    let noise_scale = scale * NOISE_SCALE;
-    let noise_way = DVec2::new(cos, sin).rotate(NOISE_WIND) * way;
-    let detail_scale = scale * DETAIL_SCALE;
-    let [photo_x, photo_y] = offset(PHOTO_START - PHOTO_WIND * way * scale);
-    let [noise_x, noise_y] = offset(NOISE_START - noise_way * noise_scale);
-    let [detail_x, detail_y] = offset(-PHOTO_WIND * way * detail_scale);
-    let [upper_x, upper_y] = offset(UPPER_START - UPPER_WIND * DVec2::from(UPPER_SCALE) * way);
-    let level =
-        |scale: f64| (f64::from(view.pixel_rad) * scale * f64::from(view.texels)).log2() as f32;
-    let half_texel = 0.5 / view.texels as f32;
+impl CloudView {
+    /// The viewer's place in heights of a layer that floats `height_m` above: what a near layer moves more by.
+    pub(crate) fn place(&self, height_m: f64) -> DVec2 {
+        DVec2::new(self.place_m.x, self.place_m.z) / height_m
+    }
+
+    /// How near a layer that floats `height_m` above the ground is, in its heights: 1 from the ground, less from above it.
+    /// Who climbs to the layer or beyond stays below it.
+    pub(crate) fn distance(&self, height_m: f64) -> f64 {
+        (1.0 - self.place_m.y / height_m).max(LEAST_DISTANCE)
+    }
+
+    /// Level of detail, at distance 1, of a texture with that many texels a height.
+    pub(crate) fn level(&self, texels_a_height: f64) -> f32 {
+        (f64::from(self.pixel_rad) * texels_a_height).log2() as f32
+    }
+}
+
+/// The share of the uniforms that no method changes. `params` are in range.
+pub fn uniforms(params: &SkyParams, light: &Light, texels: u32) -> CloudUniforms {
     let closing = closing(params.cover);
     let sun = sun_azimuth(light.sun_direction);
+    let half_texel = 0.5 / texels as f32;
     CloudUniforms {
-        photo: [scale as f32, photo_x, photo_y, level(scale)],
-        noise: [
-            (noise_scale * cos) as f32,
-            (noise_scale * sin) as f32,
-            noise_x,
-            noise_y,
-        ],
-        detail: [detail_scale as f32, detail_x, detail_y, level(detail_scale)],
-        upper: [
-            UPPER_SCALE[0] as f32,
-            UPPER_SCALE[1] as f32,
-            upper_x,
-            upper_y,
-        ],
-        levels: [
-            level(noise_scale),
-            level((UPPER_SCALE[0] * UPPER_SCALE[1]).sqrt()),
-            params.density.max(closing),
-            HAZE[0] + (HAZE[1] - HAZE[0]) * closing,
-        ],
         // Half a texel is kept from the ends: the texture repeats, and its ends are far apart.
         gradient: [sun.x, sun.y, half_texel, 1.0 - 2.0 * half_texel],
-        shape: [
-            1.0 - params.cover - OVERCAST * closing,
-            1.0 / params.cover.max(0.05),
-            params.density,
-            params.upper_layer,
-        ],
-        sunlight: vec4(light.sunlight * (1.0 - SHADE * closing), 0.0),
+        sunlight: vec4(
+            light.sunlight * (1.0 - SHADE * closing),
+            1.0 / (HAZE[0] + (HAZE[1] - HAZE[0]) * closing),
+        ),
         ambient: vec4(ambient(light.skylight), 0.0),
         tint: vec4(SUNSET_TINT, params.sunset),
     }
 }
 
-/// Radiance of a shut sky far away, where single clouds cannot be told apart, and how far the sky is shut.
-///
-/// It is the light of a place where photo, noise and detail have their means, by the same lines as the
-/// shader's; line 19 is left out, since detail does not pierce a shut sky.
-pub fn overcast(clouds: &CloudUniforms, cover: f32, means: [f32; 3]) -> [f32; 4] {
-    let [photo, noise, detail] = means;
-    let [cut, stretch, density, _] = clouds.shape;
-    let [sunlight, ambient] = [clouds.sunlight, clouds.ambient].map(|l| Vec4::from(l).truncate());
-    let amount = photo + noise * (1.0 - photo);
-    let alpha = ((amount - cut) * stretch).max(0.0);
-    let beyond = amount + detail * (1.0 - amount) + density * alpha * 2.0 - 1.0;
-    let grey = 1.0 + beyond - 0.75 * (beyond + (beyond * beyond + FOLD * FOLD).sqrt());
-    let bright = CORE + (1.0 - CORE) * grey.clamp(0.0, 1.0);
-    vec4(bright * (bright * sunlight + ambient), closing(cover))
+/// Radiance of a cloud of this grey, by the same line as the shader's.
+pub(crate) fn radiance(clouds: &CloudUniforms, grey: f32) -> Vec3 {
+    let [sunlight, ambient] =
+        [clouds.sunlight, clouds.ambient].map(|l| Vec3::new(l[0], l[1], l[2]));
+    let bright = CORE + (1.0 - CORE) * grey;
+    bright * (bright * sunlight + ambient)
 }
 
-/// How far the sky is shut, 0..1.
-fn closing(cover: f32) -> f32 {
+/// How far the sky is shut at a cover, 0..1: an overcast has no holes.
+pub fn closing(cover: f32) -> f32 {
     smoothstep(CLOSING, 1.0, cover)
 }
 
 /// A texture coordinate in 0..1: reduced in 64 bits, since seconds have no end.
-fn offset(place: DVec2) -> [f32; 2] {
+pub(crate) fn offset(place: DVec2) -> [f32; 2] {
     let fract = place - place.floor();
     [fract.x as f32, fract.y as f32]
 }
@@ -178,117 +122,23 @@ fn ambient(skylight: Vec3) -> Vec3 {
 mod tests {
     use super::*;
 
-    fn at(params: SkyParams, seconds: f64) -> CloudUniforms {
+    #[test]
+    fn the_sky_closes_above_cover_0_8_and_loses_light() {
         let light = Light {
             sun_direction: Vec3::Y,
             sunlight: Vec3::ONE,
             skylight: Vec3::ZERO,
             night: 0.0,
         };
-        uniforms(
-            &params,
-            &light,
-            CloudView {
-                texels: 512,
-                pixel_rad: 1e-3,
-                seconds,
-            },
-        )
-    }
-
-    #[test]
-    fn still_air_moves_nothing_and_wind_moves_both_layers_each_its_own_way() {
-        let still = SkyParams {
-            speed: 0.0,
-            ..SkyParams::default()
+        let sunlight = |cover: f32| {
+            let params = SkyParams {
+                cover,
+                ..SkyParams::default()
+            };
+            uniforms(&params, &light, 512).sunlight[0]
         };
-        assert_eq!(at(still, 0.0), at(still, 1e5));
-        let windy = SkyParams {
-            speed: 1.0,
-            ..SkyParams::default()
-        };
-        let (before, after) = (at(windy, 0.0), at(windy, 1.0));
-        // Back from texture coordinates to the plane of the dome: what stood over the viewer has moved so far.
-        let photo = Vec2::new(
-            before.photo[1] - after.photo[1],
-            before.photo[2] - after.photo[2],
-        ) / before.photo[0];
-        let turn = Vec2::new(before.noise[0], before.noise[1]);
-        let moved = Vec2::new(
-            before.noise[2] - after.noise[2],
-            before.noise[3] - after.noise[3],
-        );
-        let noise = Vec2::new(turn.x, -turn.y).rotate(moved) / turn.length_squared();
-        for (way, wind) in [(photo, PHOTO_WIND), (noise, NOISE_WIND)] {
-            assert!(
-                (way - (wind * MAX_WIND).as_vec2()).length() < 1e-5,
-                "{way}, expected {wind}"
-            );
-        }
-        let angle = photo.angle_to(noise).abs().to_degrees();
-        assert!(
-            (1.0..20.0).contains(&angle),
-            "slightly different directions: {angle} degrees"
-        );
-        assert!(
-            (1.05..1.3).contains(&(noise.length() / photo.length())),
-            "slightly different speeds"
-        );
-    }
-
-    #[test]
-    fn offsets_stay_in_the_texture_for_ever() {
-        let windy = SkyParams {
-            speed: 1.0,
-            ..SkyParams::default()
-        };
-        for seconds in [-1e9, -1e-9, 1e6, 1e12] {
-            let c = at(windy, seconds);
-            let offsets = [
-                &c.photo[1..3],
-                &c.noise[2..4],
-                &c.detail[1..3],
-                &c.upper[2..4],
-            ]
-            .concat();
-            assert!(
-                offsets.iter().all(|o| (0.0..=1.0).contains(o)),
-                "{seconds}: {offsets:?}"
-            );
-        }
-    }
-
-    #[test]
-    fn cover_is_the_papers_until_the_sky_closes() {
-        let cut = |cover: f32| {
-            at(
-                SkyParams {
-                    cover,
-                    ..SkyParams::default()
-                },
-                0.0,
-            )
-            .shape[0]
-        };
-        for cover in [0.0, 0.57, 0.69, 0.8] {
-            assert_eq!(cut(cover), 1.0 - cover);
-        }
-        assert!(cut(0.9) < 1.0 - 0.9 && cut(1.0) == -OVERCAST);
-    }
-
-    #[test]
-    fn higher_clouds_are_smaller() {
-        let tile = |height: f32| {
-            1.0 / at(
-                SkyParams {
-                    height,
-                    ..SkyParams::default()
-                },
-                0.0,
-            )
-            .photo[0]
-        };
-        assert!((tile(0.0) - 7.0).abs() < 1e-4 && (tile(1.0) - 2.75).abs() < 1e-4);
-        assert!(tile(0.52) < tile(0.2));
+        assert_eq!((closing(0.8), closing(1.0)), (0.0, 1.0));
+        assert_eq!((sunlight(0.3), sunlight(0.8)), (1.0, 1.0));
+        assert_eq!(sunlight(1.0), 1.0 - SHADE);
     }
 }

@@ -3,9 +3,13 @@
 use welkin_pack::{Image, Pack, Role, Texture};
 
 use crate::clouds::CloudView;
+use crate::fbm_map::Octaves;
 use crate::light::Light;
 use crate::uniforms::{CameraUniforms, Uniforms, vec4};
-use crate::{Camera, SkyError, SkyParams, clouds, galaxy, sky, stars, sun, tonemap};
+use crate::{
+    Camera, Method, SkyError, SkyParams, clouds, fbm, flares, galaxy, octaves, octaves_map, packed,
+    sky, skybox, stars, sun, tonemap,
+};
 
 /// What the CPU keeps of a pack between frames.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +26,16 @@ pub struct Facts {
     pub stars: (u32, usize),
     /// Texels a side and levels of the sun.
     pub sun: (u32, usize),
+    /// Texels a side of the atlas of flares.
+    pub flares: u32,
+    /// Texels a side of a face and levels of the skybox, if there is one.
+    pub skybox: Option<(u32, usize)>,
+    /// Seed of the pack.
+    pub seed: u64,
+    /// Texels of the white noise, 32x32 of four bytes.
+    pub noise: Vec<u8>,
+    /// The octaves of smooth noise.
+    pub fbm: Octaves,
 }
 
 impl Facts {
@@ -38,7 +52,18 @@ impl Facts {
             cloud_means: cloud_means(pack)?,
             stars: side(texture(pack, Role::Stars)?),
             sun: side(texture(pack, Role::Sun)?),
+            flares: texture(pack, Role::Flares)?.width,
+            skybox: pack.texture(Role::Skybox).map(side),
+            seed: pack.manifest().seed,
+            noise: texture(pack, Role::Octaves)?.levels.concat(),
+            fbm: Octaves::new(texture(pack, Role::Fbm)?),
         })
+    }
+
+    /// The states of the octaves method's noise at a moment: see [`octaves_map::states`].
+    pub fn octave_states(&self, params: &SkyParams, seconds: f64) -> Vec<f32> {
+        let seconds = finite(seconds);
+        octaves_map::states(&self.noise, self.seed, &params.clamped(), seconds)
     }
 
     /// The uniforms of one frame: a pure function. `step` is one step of the target's encoding.
@@ -52,31 +77,62 @@ impl Facts {
         step: f32,
     ) -> Uniforms {
         let params = params.clamped();
-        let seconds = if seconds.is_finite() { seconds } else { 0.0 };
+        let seconds = finite(seconds);
         let light = Light::new(&self.sky, self.noon_elevation_rad, params.time);
+        let night = if params.stars { light.night } else { 0.0 };
         let (rays, viewport) = (camera.rays(), camera.viewport());
         let pixel_rad = [
             2.0 * rays.right.length() / viewport.x,
             2.0 * rays.up.length() / viewport.y,
         ];
         let pixel = pixel_rad[0].max(pixel_rad[1]);
+        let stands = camera.position_m().as_dvec3();
         let view = CloudView {
             texels: self.clouds_texels,
             pixel_rad: pixel,
             seconds,
+            place_m: stands,
         };
-        let clouds = clouds::uniforms(&params, &light, view);
-        let overcast = clouds::overcast(&clouds, params.cover, self.cloud_means);
+        let clouds = clouds::uniforms(&params, &light, self.clouds_texels);
+        let [east, south, ..] = clouds.gradient;
+        let packed = packed::uniforms(&params, &view);
+        let octaves = octaves::uniforms(&params, &view, [east, south]);
+        let fbm = fbm::uniforms(&params, &view, &self.fbm, light.sun_direction);
+        let overcast = match params.method {
+            Method::Packed => packed::overcast(&packed, &clouds, self.cloud_means),
+            Method::Octaves => octaves::overcast(&octaves, &clouds),
+            Method::Fbm => fbm::overcast(&fbm, &clouds),
+        };
+        let overcast = vec4(overcast, clouds::closing(params.cover));
+        let camera = camera_uniforms(camera);
+        let [face, levels] = self
+            .skybox
+            .map_or([1, 1], |(face, levels)| [face, levels as u32]);
+        let skybox_share = if self.skybox.is_some() {
+            params.skybox
+        } else {
+            0.0
+        };
         Uniforms {
-            camera: camera_uniforms(camera),
-            sky: sky::uniforms(&light, &self.sky, params.time, overcast),
-            sun: sun::uniforms(&light, &rays, self.sun.0, self.sun.1, pixel),
-            stars: stars::uniforms(self.stars.0, self.stars.1, pixel_rad, light.night, seconds),
-            galaxy: galaxy::uniforms(light.night, self.clouds_texels, pixel),
+            camera,
+            sky: sky::uniforms(&light, &self.sky, params.time, night, overcast),
+            sun: sun::uniforms(&light, &rays, self.sun.0, self.sun.1, pixel, params.sun),
+            stars: stars::uniforms(self.stars.0, self.stars.1, pixel_rad, night, seconds),
+            galaxy: galaxy::uniforms(night, self.clouds_texels, pixel),
+            skybox: skybox::uniforms(skybox_share, face, levels as usize, pixel),
             clouds,
+            packed,
+            octaves,
+            fbm,
+            flares: flares::uniforms(&params, &light, &camera, self.flares),
             tonemap: tonemap::uniforms(&params, step),
         }
     }
+}
+
+/// Seconds that are not finite are 0.
+fn finite(seconds: f64) -> f64 {
+    if seconds.is_finite() { seconds } else { 0.0 }
 }
 
 /// The texture of a role.

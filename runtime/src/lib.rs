@@ -8,17 +8,18 @@
 //! # Practice
 //! One triangle over the screen, one fragment shader, five to ten texture reads a pixel, inside
 //! `Limits::downlevel_webgl2_defaults()`. All work a frame is done in [`Sky::prepare`], which writes one
-//! uniform buffer. A frame is a pure function of pack, parameters, camera and seconds.
+//! uniform buffer and, for [`Method::Octaves`] and [`Method::Fbm`], draws their small cloud map off screen. A frame is a pure function of pack, parameters, camera and seconds.
 //!
 //! ```no_run
-//! # fn f(device: &wgpu::Device, queue: &wgpu::Queue, pass: &mut wgpu::RenderPass<'_>) -> Result<(), Box<dyn std::error::Error>> {
+//! # fn f(device: &wgpu::Device, queue: &wgpu::Queue, mut encoder: wgpu::CommandEncoder, descriptor: &wgpu::RenderPassDescriptor<'_>) -> Result<(), Box<dyn std::error::Error>> {
 //! use welkin_runtime::{Camera, Sky, SkyConfig, SkyParams};
 //! let pack = welkin_pack::Pack::open("packs/default")?;
 //! let config = SkyConfig { target_format: wgpu::TextureFormat::Bgra8UnormSrgb, depth: None, sample_count: 1 };
 //! let mut sky = Sky::new(device, queue, config, &pack)?;
 //! // Each frame, before the pass is begun and then inside it, after the opaque scene:
-//! sky.prepare(queue, &SkyParams::default(), &Camera::looking(3.1, 0.4, 1.0, [1280, 720]), 12.5);
-//! sky.draw(pass);
+//! sky.prepare(queue, &mut encoder, &SkyParams::default(), &Camera::looking(3.1, 0.4, 1.0, [1280, 720]), 12.5);
+//! let mut pass = encoder.begin_render_pass(descriptor);
+//! sky.draw(&mut pass);
 //! # Ok(()) }
 //! ```
 
@@ -26,14 +27,23 @@ pub mod camera;
 pub mod clouds;
 pub mod dome;
 pub mod error;
+pub mod fbm;
+pub mod fbm_map;
+pub mod fbm_pack;
+pub mod flares;
 pub mod frame;
 pub mod galaxy;
 pub mod light;
+pub mod map;
+pub mod octaves;
+pub mod octaves_map;
+pub mod packed;
 pub mod params;
 mod pipeline;
 pub mod renderer;
 pub mod shader;
 pub mod sky;
+pub mod skybox;
 pub mod stars;
 pub mod sun;
 pub mod tonemap;
@@ -42,5 +52,5 @@ mod upload;
 
 pub use camera::Camera;
 pub use error::SkyError;
-pub use params::SkyParams;
+pub use params::{FbmParams, Method, OctaveParams, ParamError, SkyParams};
 pub use renderer::{DepthConfig, Sky, SkyConfig};

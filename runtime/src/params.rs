@@ -1,9 +1,105 @@
-//! The parameters of Roden and Parberry, and a few of our own.
+//! The parameters of Roden and Parberry, those of each method, and a few of our own.
+
+/// Which published system makes the clouds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// One packed texture: T. Roden, I. Parberry, ACE 2005. See [`crate::clouds`].
+    #[default]
+    Packed,
+    /// Octaves of white noise that form anew: S. Guthikonda et al., USC. See [`crate::octaves`].
+    Octaves,
+    /// Octaves of smooth noise that drift, lit by a short ray march: I. Quilez, 2005. See [`crate::fbm`].
+    Fbm,
+}
+
+impl Method {
+    /// Every method, in the order of their numbers.
+    pub const ALL: [Method; 3] = [Method::Packed, Method::Octaves, Method::Fbm];
+
+    /// The name on command lines and in settings.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Method::Packed => "packed",
+            Method::Octaves => "octaves",
+            Method::Fbm => "fbm",
+        }
+    }
+}
+
+/// What [`Method::Octaves`] alone knows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OctaveParams {
+    /// Octaves that are summed, 1..=8. The paper has four.
+    pub count: u32,
+    /// How abruptly clouds end, 0 (fuzzy) to 1 (cut out): the paper's `cloudSharpness`.
+    pub sharpness: f32,
+    /// Seconds from one state of an octave to the next, 0.1..=86400: the paper's `cloudFormationInterval`.
+    pub formation_interval_s: f32,
+    /// Cover of the low, middle and high dome, as a share of [`SkyParams::cover`], 0..1. 0 leaves a dome out.
+    pub domes: [f32; 3],
+}
+
+impl Default for OctaveParams {
+    fn default() -> OctaveParams {
+        OctaveParams {
+            count: crate::octaves_map::DEFAULT_COUNT,
+            sharpness: 0.016,
+            formation_interval_s: 60.0,
+            domes: [0.8, 0.6, 0.7],
+        }
+    }
+}
+
+/// What [`Method::Fbm`] alone knows. Colours are reflectances, linear BT.709, 0..1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FbmParams {
+    /// How sharply clouds end, 0 to 1: the nearer the article's b is to its a.
+    pub sharpness: f32,
+    /// Colour where the light comes through least cloud.
+    pub lit: [f32; 3],
+    /// Colour where it comes through most.
+    pub shaded: [f32; 3],
+}
+
+impl FbmParams {
+    /// White clouds with grey undersides.
+    pub const FAIR: FbmParams = FbmParams {
+        sharpness: 0.45,
+        lit: [1.0, 1.0, 1.0],
+        shaded: [0.42, 0.46, 0.53],
+    };
+
+    /// Two dark greys.
+    pub const STORMY: FbmParams = FbmParams {
+        sharpness: 0.25,
+        lit: [0.40, 0.42, 0.46],
+        shaded: [0.08, 0.085, 0.10],
+    };
+}
+
+impl Default for FbmParams {
+    /// [`FbmParams::FAIR`].
+    fn default() -> FbmParams {
+        FbmParams::FAIR
+    }
+}
+
+/// A parameter out of its range.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{key} is {found}, expected {expected}")]
+pub struct ParamError {
+    /// Name of the parameter, such as `octaves.formation_interval_s`.
+    pub key: &'static str,
+    /// As it is.
+    pub found: String,
+    /// As it should be.
+    pub expected: String,
+}
 
 /// What the sky shall look like. The first six are the paper's, 0..1 each.
 ///
 /// Values out of range are clamped when a frame is prepared, and what is not a number becomes the
-/// default, so that a slider or a script can never make a frame of NaN.
+/// default, so that a slider or a script can never make a frame of NaN. [`SkyParams::check`] tells instead.
 ///
 /// T. Roden, I. Parberry, "Clouds and Stars: Efficient Real-Time Procedural Sky Rendering Using 3D
 /// Hardware", ACE 2005, section 2.
@@ -21,13 +117,33 @@ pub struct SkyParams {
     pub speed: f32,
     /// Time of day: 0 midnight, 0.25 sunrise, 0.5 noon, 0.75 sunset, 1 midnight again.
     pub time: f32,
-    /// Amount of the thin upper layer, 0 (off) to 1.
+    /// Amount of the thin upper layer of [`Method::Packed`], 0 (off) to 1.
     pub upper_layer: f32,
     /// Factor on the radiance before the tone curve, 0..=64. A float target gets radiance without it.
     pub exposure: f32,
     /// Whether targets of few bits are dithered by half a step.
     pub dither: bool,
+    /// Which system makes the clouds.
+    pub method: Method,
+    /// Of [`Method::Octaves`].
+    pub octaves: OctaveParams,
+    /// Of [`Method::Fbm`].
+    pub fbm: FbmParams,
+    /// Whether the sun's disc and glow are drawn.
+    pub sun: bool,
+    /// Whether stars and galaxy are drawn.
+    pub stars: bool,
+    /// Strength of the lens flare, 0 (off) to 1.
+    pub flare: f32,
+    /// How far the pack's skybox, if it has one, takes the place of the computed sky, 0 to 1.
+    pub skybox: f32,
 }
+
+/// The least and the largest [`OctaveParams::formation_interval_s`]: a day.
+pub const FORMATION_INTERVAL_S: [f32; 2] = [0.1, 86_400.0];
+
+/// The most octaves of [`OctaveParams::count`].
+pub const MAX_OCTAVES: u32 = 8;
 
 /// The largest [`SkyParams::exposure`]: six stops over the default.
 pub const MAX_EXPOSURE: f32 = 64.0;
@@ -45,9 +161,19 @@ impl Default for SkyParams {
             upper_layer: 0.0,
             exposure: 1.0,
             dither: true,
+            method: Method::Packed,
+            octaves: OctaveParams::default(),
+            fbm: FbmParams::default(),
+            sun: true,
+            stars: true,
+            flare: 1.0,
+            skybox: 1.0,
         }
     }
 }
+
+/// A number with its key, its default and its range.
+type Ranged<'a> = (&'static str, &'a mut f32, f32, [f32; 2]);
 
 impl SkyParams {
     /// The parameters in the caption of the paper's figure 2.
@@ -77,26 +203,102 @@ impl SkyParams {
     }
 
     /// The same parameters, all in their ranges.
-    pub fn clamped(self) -> SkyParams {
-        let usual = SkyParams::default();
-        let clamp = |value: f32, usual: f32, max: f32| {
-            if value.is_nan() {
+    pub fn clamped(mut self) -> SkyParams {
+        for (_, value, usual, [low, high]) in self.numbers() {
+            *value = if value.is_nan() {
                 usual
             } else {
-                value.clamp(0.0, max)
-            }
-        };
-        SkyParams {
-            cover: clamp(self.cover, usual.cover, 1.0),
-            height: clamp(self.height, usual.height, 1.0),
-            density: clamp(self.density, usual.density, 1.0),
-            sunset: clamp(self.sunset, usual.sunset, 1.0),
-            speed: clamp(self.speed, usual.speed, 1.0),
-            time: clamp(self.time, usual.time, 1.0),
-            upper_layer: clamp(self.upper_layer, usual.upper_layer, 1.0),
-            exposure: clamp(self.exposure, usual.exposure, MAX_EXPOSURE),
-            dither: self.dither,
+                value.clamp(low, high)
+            };
         }
+        self.octaves.count = self.octaves.count.clamp(1, MAX_OCTAVES);
+        self
+    }
+
+    /// Tells the first parameter that [`SkyParams::clamped`] would change.
+    ///
+    /// # Errors
+    /// [`ParamError`], with the parameter's name and range.
+    pub fn check(&self) -> Result<(), ParamError> {
+        for (key, value, _, [low, high]) in { *self }.numbers() {
+            if !(low..=high).contains(value) {
+                let (found, expected) =
+                    (value.to_string(), format!("a number from {low} to {high}"));
+                return Err(ParamError {
+                    key,
+                    found,
+                    expected,
+                });
+            }
+        }
+        let count = self.octaves.count;
+        if !(1..=MAX_OCTAVES).contains(&count) {
+            return Err(ParamError {
+                key: "octaves.count",
+                found: count.to_string(),
+                expected: format!("a number from 1 to {MAX_OCTAVES}"),
+            });
+        }
+        Ok(())
+    }
+
+    /// Every number that has a range.
+    fn numbers(&mut self) -> [Ranged<'_>; 22] {
+        const UNIT: [f32; 2] = [0.0, 1.0];
+        let usual = SkyParams::default();
+        let [low, middle, high] = &mut self.octaves.domes;
+        let [lit_r, lit_g, lit_b] = &mut self.fbm.lit;
+        let [shaded_r, shaded_g, shaded_b] = &mut self.fbm.shaded;
+        let (octaves, fbm) = (usual.octaves, usual.fbm);
+        [
+            ("cover", &mut self.cover, usual.cover, UNIT),
+            ("height", &mut self.height, usual.height, UNIT),
+            ("density", &mut self.density, usual.density, UNIT),
+            ("sunset", &mut self.sunset, usual.sunset, UNIT),
+            ("speed", &mut self.speed, usual.speed, UNIT),
+            ("time", &mut self.time, usual.time, UNIT),
+            (
+                "upper_layer",
+                &mut self.upper_layer,
+                usual.upper_layer,
+                UNIT,
+            ),
+            (
+                "exposure",
+                &mut self.exposure,
+                usual.exposure,
+                [0.0, MAX_EXPOSURE],
+            ),
+            ("flare", &mut self.flare, usual.flare, UNIT),
+            ("skybox", &mut self.skybox, usual.skybox, UNIT),
+            (
+                "octaves.sharpness",
+                &mut self.octaves.sharpness,
+                octaves.sharpness,
+                UNIT,
+            ),
+            (
+                "octaves.formation_interval_s",
+                &mut self.octaves.formation_interval_s,
+                octaves.formation_interval_s,
+                FORMATION_INTERVAL_S,
+            ),
+            ("octaves.domes[0]", low, octaves.domes[0], UNIT),
+            ("octaves.domes[1]", middle, octaves.domes[1], UNIT),
+            ("octaves.domes[2]", high, octaves.domes[2], UNIT),
+            (
+                "fbm.sharpness",
+                &mut self.fbm.sharpness,
+                fbm.sharpness,
+                UNIT,
+            ),
+            ("fbm.lit[0]", lit_r, fbm.lit[0], UNIT),
+            ("fbm.lit[1]", lit_g, fbm.lit[1], UNIT),
+            ("fbm.lit[2]", lit_b, fbm.lit[2], UNIT),
+            ("fbm.shaded[0]", shaded_r, fbm.shaded[0], UNIT),
+            ("fbm.shaded[1]", shaded_g, fbm.shaded[1], UNIT),
+            ("fbm.shaded[2]", shaded_b, fbm.shaded[2], UNIT),
+        ]
     }
 }
 
@@ -120,6 +322,33 @@ mod tests {
             (0.0, 1.0, 0.0, MAX_EXPOSURE)
         );
         assert_eq!(tame.density, SkyParams::default().density);
+    }
+
+    #[test]
+    fn tells_the_parameter_that_is_out_of_range() {
+        assert_eq!(SkyParams::default().check(), Ok(()));
+        let told = |change: &dyn Fn(&mut SkyParams)| {
+            let mut params = SkyParams::default();
+            change(&mut params);
+            let error = params.check().expect_err("out of range");
+            assert_eq!(params.clamped().check(), Ok(()), "{error}");
+            error.to_string()
+        };
+        assert_eq!(
+            told(&|p| p.octaves.formation_interval_s = 0.0),
+            "octaves.formation_interval_s is 0, expected a number from 0.1 to 86400"
+        );
+        assert_eq!(
+            told(&|p| p.octaves.count = 0),
+            "octaves.count is 0, expected a number from 1 to 8"
+        );
+        assert_eq!(
+            told(&|p| p.fbm.shaded[2] = f32::NAN),
+            "fbm.shaded[2] is NaN, expected a number from 0 to 1"
+        );
+        assert!(told(&|p| p.octaves.domes[1] = 1.5).starts_with("octaves.domes[1] is 1.5"));
+        assert!(told(&|p| p.cover = -0.1).starts_with("cover is -0.1"));
+        assert!(told(&|p| p.exposure = f32::INFINITY).starts_with("exposure is inf"));
     }
 
     #[test]

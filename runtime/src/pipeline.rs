@@ -1,19 +1,23 @@
-//! The pipeline: configuration, bindings, and the states that put the sky behind a scene.
+//! The pipelines: configuration, bindings, and the states that put the sky behind a scene.
 
 use welkin_pack::Role;
 
 use crate::dome::Vertex;
 use crate::uniforms::Uniforms;
-use crate::{DepthConfig, SkyConfig, SkyError, shader, tonemap};
+use crate::{DepthConfig, Method, SkyConfig, SkyError, shader, tonemap};
 
 /// Bindings of the textures, as uniforms.wgsl declares them.
-pub(crate) const TEXTURES: [(u32, Role); 5] = [
+pub(crate) const TEXTURES: [(u32, Role); 6] = [
     (3, Role::Clouds),
     (4, Role::Stars),
     (5, Role::Galaxy),
     (6, Role::Sky),
     (7, Role::Sun),
+    (8, Role::Flares),
 ];
+
+/// Binding of the skybox, the only cube.
+pub(crate) const SKYBOX_BINDING: u32 = 9;
 
 /// What a frame needs beyond the clear sky and one layer of clouds.
 ///
@@ -52,7 +56,7 @@ impl Variant {
     pub fn of(uniforms: &Uniforms) -> Variant {
         Variant {
             night: uniforms.sky.gradient[3] > 0.0,
-            upper_layer: uniforms.clouds.shape[3] > 0.0,
+            upper_layer: uniforms.packed.shape[3] > 0.0,
         }
     }
 
@@ -71,14 +75,14 @@ impl Variant {
     }
 }
 
-/// Looks at the configuration and chooses the shader's variant.
+/// Looks at the configuration and chooses what the shader writes.
 ///
 /// # Errors
 /// [`SkyError::TargetFormat`], [`SkyError::DepthFormat`], [`SkyError::SampleCount`].
-pub(crate) fn shader_text(
+pub(crate) fn output(
     config: &SkyConfig,
     features: wgpu::Features,
-) -> Result<String, SkyError> {
+) -> Result<shader::Output, SkyError> {
     let format = config.target_format;
     let output = tonemap::output(format).ok_or(SkyError::TargetFormat { format })?;
     let usages = format.guaranteed_format_features(features).allowed_usages;
@@ -98,76 +102,185 @@ pub(crate) fn shader_text(
             });
         }
     }
-    Ok(shader::compose(
-        output,
-        config.depth.is_some_and(|d| d.reversed),
-    ))
+    Ok(output)
 }
 
-/// The layout of group 0.
-pub(crate) fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let entry = |binding: u32, visibility: wgpu::ShaderStages, ty: wgpu::BindingType| {
-        wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility,
-            ty,
-            count: None,
+/// Layouts of the groups: what every pass shares in group 0, what a method adds in group 1.
+#[derive(Debug)]
+pub(crate) struct Layouts {
+    /// Uniforms, samplers and the pack's textures.
+    pub shared: wgpu::BindGroupLayout,
+    /// One 2-D texture, at binding 0.
+    pub texture: wgpu::BindGroupLayout,
+    /// One array of textures, at binding 1.
+    pub layers: wgpu::BindGroupLayout,
+}
+
+impl Layouts {
+    pub fn new(device: &wgpu::Device) -> Layouts {
+        let one = |binding: u32, dimension| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some("sky, a method's own"),
+                entries: &[entry(binding, texture(true, dimension))],
+            })
+        };
+        Layouts {
+            shared: shared_layout(device),
+            texture: one(0, wgpu::TextureViewDimension::D2),
+            layers: one(1, wgpu::TextureViewDimension::D2Array),
         }
-    };
+    }
+
+    /// Group 1 with one 2-D texture.
+    pub fn texture_group(
+        &self,
+        device: &wgpu::Device,
+        view: &wgpu::TextureView,
+    ) -> wgpu::BindGroup {
+        group(device, &self.texture, 0, view)
+    }
+
+    /// Group 1 with an array of textures, even if it has one layer only.
+    pub fn layers_group(&self, device: &wgpu::Device, texture: &wgpu::Texture) -> wgpu::BindGroup {
+        let view = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        group(device, &self.layers, 1, &view)
+    }
+
+    /// A pipeline that fills a whole target; `own` is the layout of its group 1.
+    pub fn off_screen(
+        &self,
+        device: &wgpu::Device,
+        module: &wgpu::ShaderModule,
+        entry_point: &str,
+        own: &wgpu::BindGroupLayout,
+        format: wgpu::TextureFormat,
+    ) -> wgpu::RenderPipeline {
+        let layout = self.pipeline_layout(device, Some(own));
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(entry_point),
+            layout: Some(&layout),
+            vertex: vertex_state(module, "vs_map", &[]),
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some(entry_point),
+                compilation_options: Default::default(),
+                targets: &[Some(format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+
+    fn pipeline_layout(
+        &self,
+        device: &wgpu::Device,
+        own: Option<&wgpu::BindGroupLayout>,
+    ) -> wgpu::PipelineLayout {
+        let mut groups = vec![Some(&self.shared)];
+        groups.extend(own.map(Some));
+        device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("sky"),
+            bind_group_layouts: &groups,
+            ..Default::default()
+        })
+    }
+}
+
+fn group(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    binding: u32,
+    view: &wgpu::TextureView,
+) -> wgpu::BindGroup {
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("sky, a method's own"),
+        layout,
+        entries: &[wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::TextureView(view),
+        }],
+    })
+}
+
+/// Everything is seen by both stages: the flare asks for the clouds before the sun in its vertex stage.
+fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        ty,
+        count: None,
+    }
+}
+
+fn texture(filterable: bool, view_dimension: wgpu::TextureViewDimension) -> wgpu::BindingType {
+    wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable },
+        view_dimension,
+        multisampled: false,
+    }
+}
+
+fn shared_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let uniform = wgpu::BindingType::Buffer {
         ty: wgpu::BufferBindingType::Uniform,
         has_dynamic_offset: false,
         min_binding_size: wgpu::BufferSize::new(size_of::<Uniforms>() as u64),
     };
     let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
-    let texture = |filterable: bool| wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable },
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    };
-    let fragment = wgpu::ShaderStages::FRAGMENT;
-    let mut entries = vec![
-        entry(0, wgpu::ShaderStages::VERTEX_FRAGMENT, uniform),
-        entry(1, fragment, sampler),
-        entry(2, fragment, sampler),
-    ];
+    let (plane, cube) = (
+        wgpu::TextureViewDimension::D2,
+        wgpu::TextureViewDimension::Cube,
+    );
+    let mut entries = vec![entry(0, uniform), entry(1, sampler), entry(2, sampler)];
     // Stars are records: they are loaded, never filtered.
     entries.extend(
-        TEXTURES.map(|(binding, role)| entry(binding, fragment, texture(role != Role::Stars))),
+        TEXTURES.map(|(binding, role)| entry(binding, texture(role != Role::Stars, plane))),
     );
+    entries.push(entry(SKYBOX_BINDING, texture(true, cube)));
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("sky"),
+        label: Some("sky, shared"),
         entries: &entries,
     })
 }
 
-/// Compiles the shader and builds a pipeline for each variant, for the triangle over the screen or for the
-/// dome's mesh.
+fn vertex_state<'a>(
+    module: &'a wgpu::ShaderModule,
+    entry_point: &'a str,
+    buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
+) -> wgpu::VertexState<'a> {
+    wgpu::VertexState {
+        module,
+        entry_point: Some(entry_point),
+        compilation_options: Default::default(),
+        buffers,
+    }
+}
+
+/// Builds a pipeline for each variant, for the triangle over the screen or for the dome's mesh.
 pub(crate) fn pipelines(
     device: &wgpu::Device,
     config: &SkyConfig,
-    text: &str,
-    layout: &wgpu::BindGroupLayout,
+    module: &wgpu::ShaderModule,
+    layouts: &Layouts,
+    method: Method,
     dome_mesh: bool,
 ) -> [wgpu::RenderPipeline; 4] {
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("sky"),
-        source: wgpu::ShaderSource::Wgsl(text.into()),
-    });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("sky"),
-        bind_group_layouts: &[Some(layout)],
-        ..Default::default()
-    });
-    let vertices = wgpu::VertexBufferLayout {
+    let layout = layouts.pipeline_layout(device, own_layout(layouts, method));
+    let vertices = [Some(wgpu::VertexBufferLayout {
         array_stride: size_of::<Vertex>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &wgpu::vertex_attr_array![0 => Float32x3],
-    };
+    })];
     let (entry, buffers, primitive) = if dome_mesh {
         (
             "vs_dome",
-            &[Some(vertices)][..],
+            &vertices[..],
             wgpu::PrimitiveState {
                 topology: wgpu::PrimitiveTopology::TriangleStrip,
                 strip_index_format: Some(wgpu::IndexFormat::Uint16),
@@ -181,20 +294,12 @@ pub(crate) fn pipelines(
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("sky"),
             layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some(entry),
-                compilation_options: Default::default(),
-                buffers,
-            },
+            vertex: vertex_state(module, entry, buffers),
             primitive,
             depth_stencil: config.depth.map(depth_state),
-            multisample: wgpu::MultisampleState {
-                count: config.sample_count,
-                ..Default::default()
-            },
+            multisample: multisample_state(config),
             fragment: Some(wgpu::FragmentState {
-                module: &module,
+                module,
                 entry_point: Some("fs_sky"),
                 compilation_options: wgpu::PipelineCompilationOptions {
                     constants: &variant.constants(),
@@ -206,6 +311,67 @@ pub(crate) fn pipelines(
             cache: None,
         })
     })
+}
+
+/// The flare's pipeline: over everything, added by its own opacity (`glBlendFunc(GL_SRC_ALPHA, GL_ONE)`).
+pub(crate) fn flare_pipeline(
+    device: &wgpu::Device,
+    config: &SkyConfig,
+    module: &wgpu::ShaderModule,
+    layouts: &Layouts,
+    method: Method,
+) -> wgpu::RenderPipeline {
+    let layout = layouts.pipeline_layout(device, own_layout(layouts, method));
+    let component = |src_factor, dst_factor| wgpu::BlendComponent {
+        src_factor,
+        dst_factor,
+        operation: wgpu::BlendOperation::Add,
+    };
+    let blend = wgpu::BlendState {
+        color: component(wgpu::BlendFactor::SrcAlpha, wgpu::BlendFactor::One),
+        alpha: component(wgpu::BlendFactor::Zero, wgpu::BlendFactor::One),
+    };
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("lens flare"),
+        layout: Some(&layout),
+        vertex: vertex_state(module, "vs_flare", &[]),
+        primitive: wgpu::PrimitiveState {
+            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            ..Default::default()
+        },
+        depth_stencil: config.depth.map(|depth| wgpu::DepthStencilState {
+            depth_compare: Some(wgpu::CompareFunction::Always),
+            ..depth_state(depth)
+        }),
+        multisample: multisample_state(config),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some("fs_flare"),
+            compilation_options: Default::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: config.target_format,
+                blend: Some(blend),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+/// What the dome of a method reads in group 1.
+fn own_layout(layouts: &Layouts, method: Method) -> Option<&wgpu::BindGroupLayout> {
+    match method {
+        Method::Packed => None,
+        Method::Octaves | Method::Fbm => Some(&layouts.texture),
+    }
+}
+
+fn multisample_state(config: &SkyConfig) -> wgpu::MultisampleState {
+    wgpu::MultisampleState {
+        count: config.sample_count,
+        ..Default::default()
+    }
 }
 
 /// The sky lies exactly at the far plane: what was cleared to it and nothing nearer lets it through.

@@ -1,18 +1,23 @@
 //! The sky on a device: what is made once, what is written each frame, what is drawn.
 //!
 //! # Practice
-//! [`Sky`] owns its pipelines, five textures and one uniform buffer, a few hundred kilobytes in all. Draw
-//! after the opaque scene: pixels that the scene covers then cost nothing.
+//! [`Sky`] owns the pack's textures, some three megabytes, and one uniform buffer. What only one method needs, its pipelines
+//! and its map, is made when that method is first prepared or [`Sky::load`]ed, and kept. Draw after the opaque scene:
+//! pixels that the scene covers then cost nothing.
 
-use welkin_pack::Pack;
+use welkin_pack::{Pack, Role};
 use wgpu::util::DeviceExt;
 
-use crate::dome;
 use crate::frame::Facts;
-use crate::pipeline::{TEXTURES, Variant, bind_group_layout, pipelines, shader_text};
+use crate::pipeline::{
+    Layouts, SKYBOX_BINDING, TEXTURES, Variant, flare_pipeline, output, pipelines,
+};
+use crate::shader::{Build, compose};
 use crate::uniforms::Uniforms;
-use crate::upload::upload;
-use crate::{Camera, SkyError, SkyParams, tonemap};
+use crate::upload::{upload, upload_skybox};
+use crate::{
+    Camera, Method, SkyError, SkyParams, dome, fbm_map, flares, map, octaves_map, tonemap,
+};
 
 /// What the sky is drawn onto.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,14 +43,48 @@ pub struct DepthConfig {
 /// A sky on a device.
 #[derive(Debug)]
 pub struct Sky {
-    pipelines: [wgpu::RenderPipeline; 4],
-    /// The one that the prepared frame needs.
-    variant: Variant,
-    bind_group: wgpu::BindGroup,
+    device: wgpu::Device,
+    config: SkyConfig,
+    build: Build,
+    layouts: Layouts,
+    shared: wgpu::BindGroup,
     buffer: wgpu::Buffer,
+    /// The octaves of [`Method::Fbm`] as the pack has them.
+    fbm: wgpu::Texture,
+    /// Bytes that each method's own textures of the pack have, at its place in [`Method::ALL`].
+    pack_bytes: [u64; Method::ALL.len()],
     facts: Facts,
     step: f32,
     dome: Option<DomeBuffers>,
+    /// Whether the target can be added to.
+    blends: bool,
+    programs: [Option<Program>; Method::ALL.len()],
+    prepared: Option<Prepared>,
+}
+
+/// What only one method needs.
+#[derive(Debug)]
+struct Program {
+    pipelines: [wgpu::RenderPipeline; 4],
+    flare: Option<wgpu::RenderPipeline>,
+    map: OwnMap,
+    module: wgpu::ShaderModule,
+}
+
+/// The off-screen part of a method.
+#[derive(Debug)]
+enum OwnMap {
+    None,
+    Octaves(Box<octaves_map::Pass>),
+    Fbm(Box<fbm_map::Pass>),
+}
+
+/// What the prepared frame draws with.
+#[derive(Clone, Copy, Debug)]
+struct Prepared {
+    method: Method,
+    variant: Variant,
+    flare: bool,
 }
 
 /// The dome's mesh on the device.
@@ -93,48 +132,101 @@ impl Sky {
         dome_step_deg: Option<f32>,
     ) -> Result<Sky, SkyError> {
         let facts = Facts::new(pack)?;
-        let text = shader_text(&config, device.features())?;
-        let layout = bind_group_layout(device);
-        let pipelines = pipelines(device, &config, &text, &layout, dome_step_deg.is_some());
+        let features = device.features();
+        let build = Build {
+            output: output(&config, features)?,
+            reversed_depth: config.depth.is_some_and(|d| d.reversed),
+            method: Method::Packed,
+            skybox: facts.skybox.is_some(),
+        };
+        let layouts = Layouts::new(device);
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("sky uniforms"),
             size: size_of::<Uniforms>() as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let bind_group = bind_group(device, queue, pack, &layout, &buffer)?;
-        let step = tonemap::step(config.target_format);
-        let dome = dome_step_deg.map(|step| dome_buffers(device, step));
+        let bytes = |role: Role| {
+            let levels = pack.texture(role).map(|texture| &texture.levels);
+            levels.map_or(0, |levels| {
+                levels.iter().map(|level| level.len() as u64).sum()
+            })
+        };
+        let usable = config.target_format.guaranteed_format_features(features);
         Ok(Sky {
-            pipelines,
-            variant: Variant::ALL[0],
-            bind_group,
+            shared: shared_group(device, queue, pack, &layouts, &buffer)?,
+            fbm: upload(device, queue, pack, Role::Fbm)?,
+            pack_bytes: [Role::Clouds, Role::Octaves, Role::Fbm].map(bytes),
+            step: tonemap::step(config.target_format),
+            dome: dome_step_deg.map(|step| dome_buffers(device, step)),
+            blends: usable
+                .flags
+                .contains(wgpu::TextureFormatFeatureFlags::BLENDABLE),
+            programs: [const { None }; Method::ALL.len()],
+            prepared: None,
+            device: device.clone(),
+            config,
+            build,
+            layouts,
             buffer,
             facts,
-            step,
-            dome,
         })
     }
 
-    /// Computes a frame and writes its uniforms. `seconds` moves clouds and stars; any value will do.
+    /// Compiles a method's shader and makes its map, so that its first frame need not.
+    pub fn load(&mut self, method: Method) {
+        self.program(method, octaves_map::DEFAULT_COUNT);
+    }
+
+    /// Computes a frame: writes its uniforms and records the off-screen passes of its method into `encoder`, before the
+    /// pass in which the sky is drawn. `seconds` moves clouds and stars; any value will do.
     ///
-    /// Nothing is remembered from frame to frame: the same arguments give the same picture.
+    /// Nothing of a picture is remembered from frame to frame: the same arguments give the same picture. Submit the
+    /// encoder before the next frame is prepared.
     pub fn prepare(
         &mut self,
         queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
         params: &SkyParams,
         camera: &Camera,
         seconds: f64,
     ) {
-        let uniforms = self.facts.uniforms(params, camera, seconds, self.step);
-        self.variant = Variant::of(&uniforms);
+        let params = params.clamped();
+        let uniforms = self.facts.uniforms(&params, camera, seconds, self.step);
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&uniforms));
+        let states = match params.method {
+            Method::Octaves => self.facts.octave_states(&params, seconds),
+            _ => Vec::new(),
+        };
+        let shared = self.shared.clone();
+        let program = self.program(params.method, params.octaves.count);
+        match &mut program.map {
+            OwnMap::None => {}
+            OwnMap::Octaves(pass) => pass.record(queue, encoder, &shared, &states),
+            OwnMap::Fbm(pass) => {
+                let [x, y, ..] = uniforms.fbm.step;
+                pass.record(encoder, &shared, [x, y]);
+            }
+        }
+        self.prepared = Some(Prepared {
+            method: params.method,
+            variant: Variant::of(&uniforms),
+            flare: uniforms.flares.light[0] > 0.0,
+        });
     }
 
     /// Draws the prepared frame into a pass whose attachments are as the configuration said.
+    ///
+    /// Before the first [`Sky::prepare`] there is nothing to draw.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_pipeline(&self.pipelines[self.variant.index()]);
-        pass.set_bind_group(0, &self.bind_group, &[]);
+        let Some((prepared, program)) = self.current() else {
+            return;
+        };
+        pass.set_bind_group(0, &self.shared, &[]);
+        if let Some(map) = program.map.map() {
+            pass.set_bind_group(1, &map.group, &[]);
+        }
+        pass.set_pipeline(&program.pipelines[prepared.variant.index()]);
         match &self.dome {
             None => pass.draw(0..3, 0..1),
             Some(dome) => {
@@ -143,42 +235,125 @@ impl Sky {
                 pass.draw_indexed(0..dome.count, 0, 0..1);
             }
         }
+        if let Some(flare) = program.flare.as_ref().filter(|_| prepared.flare) {
+            pass.set_pipeline(flare);
+            pass.draw(0..4, 0..flares::COUNT);
+        }
+    }
+
+    /// The cloud map of the prepared frame, if its method draws one: it tiles, and level 0 is as fine as it gets.
+    ///
+    /// Its red channel is the amount of cloud ([`Method::Octaves`], before cover) or the shade ([`Method::Fbm`], with
+    /// the cover in alpha).
+    pub fn cloud_map(&self) -> Option<&wgpu::Texture> {
+        let (_, program) = self.current()?;
+        program.map.map().map(map::Map::texture)
+    }
+
+    /// Bytes of the textures that only this method reads: its own of the pack and, once it is loaded, its map.
+    pub fn memory_bytes(&self, method: Method) -> u64 {
+        let own = self.programs[method as usize]
+            .as_ref()
+            .map_or(0, |program| match &program.map {
+                OwnMap::None => 0,
+                OwnMap::Octaves(pass) => pass.bytes(),
+                OwnMap::Fbm(pass) => pass.bytes(),
+            });
+        self.pack_bytes[method as usize] + own
+    }
+
+    fn current(&self) -> Option<(Prepared, &Program)> {
+        let prepared = self.prepared?;
+        Some((prepared, self.programs[prepared.method as usize].as_ref()?))
+    }
+
+    /// The program of a method, made if it is not there yet; `octaves` is how many [`Method::Octaves`] sums.
+    fn program(&mut self, method: Method, octaves: u32) -> &mut Program {
+        let (device, layouts) = (&self.device, &self.layouts);
+        let slot = &mut self.programs[method as usize];
+        let new = || {
+            let build = Build {
+                method,
+                ..self.build
+            };
+            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(method.name()),
+                source: wgpu::ShaderSource::Wgsl(compose(build).into()),
+            });
+            let config = &self.config;
+            let mesh = self.dome.is_some();
+            Program {
+                pipelines: pipelines(device, config, &module, layouts, method, mesh),
+                flare: self
+                    .blends
+                    .then(|| flare_pipeline(device, config, &module, layouts, method)),
+                map: match method {
+                    Method::Fbm => {
+                        OwnMap::Fbm(fbm_map::Pass::new(device, &module, layouts, &self.fbm).into())
+                    }
+                    Method::Packed | Method::Octaves => OwnMap::None,
+                },
+                module,
+            }
+        };
+        let program = slot.get_or_insert_with(new);
+        let fits = |map: &OwnMap| matches!(map, OwnMap::Octaves(pass) if pass.fits(octaves));
+        if method == Method::Octaves && !fits(&program.map) {
+            let pass = octaves_map::Pass::new(device, &program.module, layouts, octaves);
+            program.map = OwnMap::Octaves(pass.into());
+        }
+        program
     }
 }
 
-fn bind_group(
+impl OwnMap {
+    fn map(&self) -> Option<&map::Map> {
+        match self {
+            OwnMap::None => None,
+            OwnMap::Octaves(pass) => Some(&pass.map),
+            OwnMap::Fbm(pass) => Some(&pass.map),
+        }
+    }
+}
+
+/// Group 0: uniforms, samplers and the textures that every method may read.
+fn shared_group(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     pack: &Pack,
-    layout: &wgpu::BindGroupLayout,
+    layouts: &Layouts,
     buffer: &wgpu::Buffer,
 ) -> Result<wgpu::BindGroup, SkyError> {
     let samplers = [wgpu::AddressMode::Repeat, wgpu::AddressMode::ClampToEdge]
         .map(|mode| sampler(device, mode));
-    let views = TEXTURES
-        .map(|(binding, role)| upload(device, queue, pack, role).map(|view| (binding, view)));
-    let views = views.into_iter().collect::<Result<Vec<_>, SkyError>>()?;
-    let mut entries = vec![
-        wgpu::BindGroupEntry {
-            binding: 0,
-            resource: buffer.as_entire_binding(),
-        },
-        wgpu::BindGroupEntry {
-            binding: 1,
-            resource: wgpu::BindingResource::Sampler(&samplers[0]),
-        },
-        wgpu::BindGroupEntry {
-            binding: 2,
-            resource: wgpu::BindingResource::Sampler(&samplers[1]),
-        },
-    ];
+    let mut views = Vec::new();
+    for (binding, role) in TEXTURES {
+        let texture = upload(device, queue, pack, role)?;
+        views.push((binding, texture.create_view(&Default::default())));
+    }
+    let skybox = upload_skybox(device, queue, pack)?;
+    let cube = skybox.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::Cube),
+        ..Default::default()
+    });
+    views.push((SKYBOX_BINDING, cube));
+    let mut entries = vec![wgpu::BindGroupEntry {
+        binding: 0,
+        resource: buffer.as_entire_binding(),
+    }];
+    for (binding, sampler) in (1..).zip(&samplers) {
+        entries.push(wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::Sampler(sampler),
+        });
+    }
     entries.extend(views.iter().map(|(binding, view)| wgpu::BindGroupEntry {
         binding: *binding,
         resource: wgpu::BindingResource::TextureView(view),
     }));
     Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("sky"),
-        layout,
+        layout: &layouts.shared,
         entries: &entries,
     }))
 }

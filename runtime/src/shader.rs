@@ -5,10 +5,13 @@ use std::fmt::Write;
 use glam::Vec3;
 use welkin_pack::mapping::{STAR_TILE_SIDE, STAR_TILE_START};
 
-use crate::{clouds, dome, galaxy, sky, stars, sun, tonemap};
+use crate::{
+    Method, clouds, dome, fbm, fbm_map, galaxy, octaves, octaves_map, packed, sky, stars, sun,
+    tonemap,
+};
 
 /// The WGSL files in the order in which they are joined.
-const PARTS: [&str; 10] = [
+const PARTS: [&str; 19] = [
     include_str!("../shaders/uniforms.wgsl"),
     include_str!("../shaders/camera.wgsl"),
     include_str!("../shaders/dome.wgsl"),
@@ -16,7 +19,16 @@ const PARTS: [&str; 10] = [
     include_str!("../shaders/sun.wgsl"),
     include_str!("../shaders/stars.wgsl"),
     include_str!("../shaders/galaxy.wgsl"),
+    include_str!("../shaders/skybox.wgsl"),
     include_str!("../shaders/clouds.wgsl"),
+    include_str!("../shaders/packed.wgsl"),
+    include_str!("../shaders/octaves.wgsl"),
+    include_str!("../shaders/octaves_map.wgsl"),
+    include_str!("../shaders/fbm.wgsl"),
+    include_str!("../shaders/fbm_map.wgsl"),
+    include_str!("../shaders/fbm_pack.wgsl"),
+    include_str!("../shaders/map.wgsl"),
+    include_str!("../shaders/flares.wgsl"),
     include_str!("../shaders/tonemap.wgsl"),
     include_str!("../shaders/renderer.wgsl"),
 ];
@@ -37,17 +49,36 @@ impl Output {
     pub const ALL: [Output; 3] = [Output::Radiance, Output::Display, Output::Encoded];
 }
 
-/// The whole shader for one kind of output, with depth 1 or (reversed) 0 far away.
-pub fn compose(output: Output, reversed_depth: bool) -> String {
-    let mut text = constants(output, reversed_depth);
+/// What is compiled into a shader, beside what its pipelines choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Build {
+    /// What the last step writes.
+    pub output: Output,
+    /// Whether depth is 1 or (reversed) 0 far away.
+    pub reversed_depth: bool,
+    /// Which method's clouds `cloud_layer` gives.
+    pub method: Method,
+    /// Whether the pack has a skybox.
+    pub skybox: bool,
+}
+
+/// The whole shader.
+pub fn compose(build: Build) -> String {
+    let mut text = constants(build);
     for part in PARTS {
         text.push('\n');
         text.push_str(part);
     }
+    let method = build.method.name();
+    let _ = write!(
+        text,
+        "\n// Radiance and opacity of the clouds along a unit direction above the horizon.\n\
+         fn cloud_layer(direction: vec3f) -> vec4f {{\n    return {method}_layer(direction);\n}}\n"
+    );
     text
 }
 
-fn constants(output: Output, reversed_depth: bool) -> String {
+fn constants(build: Build) -> String {
     let mut text = String::from("// Generated from the constants in Rust.\n");
     for (index, name) in ["OUTPUT_RADIANCE", "OUTPUT_DISPLAY", "OUTPUT_ENCODED"]
         .iter()
@@ -55,9 +86,10 @@ fn constants(output: Output, reversed_depth: bool) -> String {
     {
         let _ = writeln!(text, "const {name} = {index}u;");
     }
-    let _ = writeln!(text, "const OUTPUT = {}u;", output as u32);
+    let _ = writeln!(text, "const OUTPUT = {}u;", build.output as u32);
+    let _ = writeln!(text, "const SKYBOX = {};", build.skybox);
     let numbers = [
-        ("FAR_DEPTH", if reversed_depth { 0.0 } else { 1.0 }),
+        ("FAR_DEPTH", if build.reversed_depth { 0.0 } else { 1.0 }),
         ("TAU", std::f32::consts::TAU),
         ("SQRT_2", std::f32::consts::SQRT_2),
         ("CLOUD_SPHERE_RADIUS", dome::CLOUD_SPHERE_RADIUS),
@@ -68,11 +100,26 @@ fn constants(output: Output, reversed_depth: bool) -> String {
         ("STAR_RATE_STEPS", 255.0),
         ("STAR_GALAXY_BOOST", stars::GALAXY_BOOST),
         ("EXTINCTION", galaxy::EXTINCTION),
-        ("CLOUD_EDGE", clouds::EDGE),
         ("CLOUD_CORE", clouds::CORE),
-        ("CLOUD_FOLD", clouds::FOLD),
-        ("UPPER_OPACITY", clouds::UPPER_OPACITY),
-        ("UPPER_THRESHOLD", clouds::UPPER_THRESHOLD),
+        ("PACKED_EDGE", packed::EDGE),
+        ("PACKED_FOLD", packed::FOLD),
+        ("UPPER_OPACITY", packed::UPPER_OPACITY),
+        ("UPPER_THRESHOLD", packed::UPPER_THRESHOLD),
+        ("OCTAVE_FINER", octaves::FINER),
+        ("OCTAVE_ROUGH_GREY", octaves::ROUGH_GREY),
+        ("OCTAVE_FINER_LEVEL", octaves::FINER.log2()),
+        ("OCTAVE_EDGE", octaves::EDGE),
+        ("OCTAVE_THIN", octaves::THIN),
+        ("OCTAVE_MIDDLE_OPACITY", octaves::MIDDLE_OPACITY),
+        ("OCTAVE_HIGH_OPACITY", octaves::HIGH_OPACITY),
+        ("OCTAVE_NOISE_SIDE", octaves_map::NOISE_SIDE as f32),
+        ("NORMAL_SLOPE", octaves_map::NORMAL_SLOPE),
+        ("NORMAL_BEND", octaves_map::NORMAL_BEND),
+        ("FBM_FINER", fbm::FINER),
+        ("FBM_FINER_LEVEL", fbm::FINER.log2()),
+        ("FBM_ROUGH_SHADE", fbm::ROUGH_SHADE),
+        ("FBM_ABSORPTION", fbm_map::ABSORPTION),
+        ("FBM_FULL", fbm::FULL),
         ("TONE_SHOULDER", tonemap::SHOULDER),
         ("GALAXY_GRAIN_SCALE", galaxy::GRAIN_SCALE),
         ("TONE_KNEE", tonemap::KNEE),
@@ -82,8 +129,20 @@ fn constants(output: Output, reversed_depth: bool) -> String {
     }
     let _ = writeln!(
         text,
-        "const STAR_START = vec2f({:?}, {:?});",
-        STAR_TILE_START[0], STAR_TILE_START[1]
+        "const OCTAVE_RELIEF_COUNT = {};",
+        octaves_map::RELIEF_COUNT
+    );
+    for (name, [x, y]) in [
+        ("STAR_START", STAR_TILE_START),
+        ("OCTAVE_FINER_START", octaves::FINER_START),
+        ("FBM_FINER_START", fbm::FINER_START),
+    ] {
+        let _ = writeln!(text, "const {name} = vec2f({x:?}, {y:?});");
+    }
+    let [x, y, z, w] = fbm_map::DEPTHS;
+    let _ = writeln!(
+        text,
+        "const FBM_DEPTHS = vec4f({x:?}, {y:?}, {z:?}, {w:?});"
     );
     for (name, colour) in [("STAR_WARM", stars::WARM), ("STAR_COLD", stars::COLD)] {
         let Vec3 { x, y, z } = colour;
@@ -102,27 +161,89 @@ mod tests {
     use super::*;
     use crate::uniforms::*;
 
-    fn parse(output: Output, reversed: bool) -> Module {
-        let text = compose(output, reversed);
+    fn parse(build: Build) -> Module {
+        let text = compose(build);
         naga::front::wgsl::parse_str(&text)
             .unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)))
     }
 
-    #[test]
-    fn every_variant_is_valid_without_any_extension() {
+    fn builds() -> Vec<Build> {
+        let mut builds = Vec::new();
         for output in Output::ALL {
-            for reversed in [false, true] {
-                let module = parse(output, reversed);
-                let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
-                validator
-                    .validate(&module)
-                    .unwrap_or_else(|e| panic!("{output:?} {reversed}: {e:?}"));
-                let entries: Vec<_> = module
-                    .entry_points
-                    .iter()
-                    .map(|e| e.name.as_str())
-                    .collect();
-                assert_eq!(entries, ["vs_screen", "vs_dome", "fs_sky"]);
+            for method in Method::ALL {
+                for (reversed_depth, skybox) in [(false, false), (true, true)] {
+                    builds.push(Build {
+                        output,
+                        reversed_depth,
+                        method,
+                        skybox,
+                    });
+                }
+            }
+        }
+        builds
+    }
+
+    #[test]
+    fn every_build_is_valid_without_any_extension() {
+        for build in builds() {
+            let module = parse(build);
+            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+            validator
+                .validate(&module)
+                .unwrap_or_else(|e| panic!("{build:?}: {e:?}"));
+            let entries: Vec<_> = module
+                .entry_points
+                .iter()
+                .map(|e| e.name.as_str())
+                .collect();
+            let passes = [
+                "fs_octaves_map",
+                "fs_fbm_map",
+                "fs_fbm_pack",
+                "vs_map",
+                "fs_level",
+            ];
+            let sky = [
+                ["vs_screen", "vs_dome"].as_slice(),
+                &passes,
+                &["vs_flare", "fs_flare", "fs_sky"],
+            ];
+            assert_eq!(entries, sky.concat());
+        }
+    }
+
+    #[test]
+    fn every_entry_point_translates_to_webgl2() {
+        use naga::back::{PipelineConstants, glsl, pipeline_constants::process_overrides};
+        use naga::proc::BoundsCheckPolicies;
+
+        let webgl2 = glsl::Options {
+            version: glsl::Version::Embedded {
+                version: 300,
+                is_webgl: true,
+            },
+            ..Default::default()
+        };
+        for build in builds() {
+            let module = parse(build);
+            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+            let info = validator.validate(&module).expect("valid");
+            for entry in &module.entry_points {
+                let named = Some((entry.stage, entry.name.as_str()));
+                let constants = PipelineConstants::default();
+                let (module, info) = process_overrides(&module, &info, named, &constants)
+                    .expect("overrides have defaults");
+                let options = glsl::PipelineOptions {
+                    shader_stage: entry.stage,
+                    entry_point: entry.name.clone(),
+                    multiview: None,
+                };
+                let mut text = String::new();
+                let policies = BoundsCheckPolicies::default();
+                glsl::Writer::new(&mut text, &module, &info, &webgl2, &options, policies)
+                    .and_then(|mut writer| writer.write())
+                    .unwrap_or_else(|e| panic!("{build:?} {}: {e}", entry.name));
             }
         }
     }
@@ -155,7 +276,7 @@ mod tests {
 
     #[test]
     fn rust_and_wgsl_agree_on_the_layout_of_every_struct() {
-        let module = &parse(Output::Encoded, false);
+        let module = &parse(builds()[0]);
         assert_same_layout!(
             module,
             CameraUniforms,
@@ -179,23 +300,52 @@ mod tests {
         assert_same_layout!(module, SunUniforms, right, up, disc, glow);
         assert_same_layout!(module, StarUniforms, field);
         assert_same_layout!(module, GalaxyUniforms, light);
+        assert_same_layout!(module, SkyboxUniforms, mix);
+        assert_same_layout!(module, CloudUniforms, gradient, sunlight, ambient, tint);
         assert_same_layout!(
             module,
-            CloudUniforms,
+            PackedUniforms,
             photo,
             noise,
             detail,
             upper,
             levels,
-            gradient,
-            shape,
-            sunlight,
-            ambient,
-            tint
+            shape
         );
+        assert_same_layout!(module, OctaveDome, axes, place);
+        assert_same_layout!(
+            module,
+            OctaveUniforms,
+            low,
+            middle,
+            high,
+            shape,
+            sun,
+            cells_a,
+            cells_b,
+            map
+        );
+        assert_same_layout!(
+            module,
+            FbmUniforms,
+            axes,
+            place,
+            remap,
+            lit,
+            shaded,
+            step,
+            offsets_a,
+            offsets_b,
+            offsets_c,
+            offsets_d,
+            weights_a,
+            weights_b
+        );
+        assert_same_layout!(module, FlareUniforms, light, places, colours, cells);
         assert_same_layout!(module, TonemapUniforms, display);
         assert_same_layout!(
-            module, Uniforms, camera, sky, sun, stars, galaxy, clouds, tonemap
+            module, Uniforms, camera, sky, sun, stars, galaxy, skybox, clouds, packed, octaves,
+            fbm, flares, tonemap
         );
         assert_eq!(
             size_of::<Uniforms>() % 16,

@@ -11,7 +11,7 @@
 //! sky there is no blue left to see on the horizon either: it takes the mean colour of the clouds.
 //!
 //! # Practice
-//! One bilinear texture read, three exponentials and a square root a pixel.
+//! One bilinear texture read, an exponential and a square root a pixel; in twilight one exponential more.
 
 use glam::Vec3;
 use welkin_pack::Image;
@@ -24,9 +24,8 @@ pub const GROUND_FLOOR: f32 = 0.3;
 /// How fast the haze below the horizon darkens, over the sine of the depression.
 pub const GROUND_FALL: f32 = 9.0;
 
-/// Sharpness of the lobes: the wide one halves at 29 degrees from the sun, the narrow one at 8.
+/// Sharpness of the wide lobe: it halves at 29 degrees from the sun. The narrow one is its twelfth power and halves at 8.
 const WIDE_SHARPNESS: f32 = 8.0;
-const NARROW_SHARPNESS: f32 = 100.0;
 /// Radiance of the lobes towards the sun in white sunlight.
 const WIDE_STRENGTH: f32 = 0.10;
 const NARROW_STRENGTH: f32 = 0.30;
@@ -40,8 +39,14 @@ const BAND: Vec3 = Vec3::new(0.55, 0.21, 0.05);
 
 /// The clear sky's share of the uniforms.
 ///
-/// `overcast` is the radiance of a shut sky and how far it is shut ([`crate::clouds::overcast`]).
-pub fn uniforms(light: &Light, sky: &Image, time: f32, overcast: [f32; 4]) -> SkyUniforms {
+/// `night` is the share of the night sky that is drawn, `overcast` the radiance of a shut sky and how far it is shut.
+pub fn uniforms(
+    light: &Light,
+    sky: &Image,
+    time: f32,
+    night: f32,
+    overcast: [f32; 4],
+) -> SkyUniforms {
     let (width, height) = (sky.width as f32, sky.height as f32);
     // Texel coordinates to texture coordinates: half a texel in, so that rows never wrap.
     let u = (time - time.floor()) + 0.5 / width;
@@ -50,10 +55,10 @@ pub fn uniforms(light: &Light, sky: &Image, time: f32, overcast: [f32; 4]) -> Sk
     let low = LOW_SUN * low_sun(light);
     let twilight = smoothstep(-0.24, 0.0, sun_up) * (1.0 - smoothstep(0.0, 0.30, sun_up));
     SkyUniforms {
-        gradient: [u, 0.5 / height, (height - 1.0) / height, light.night],
+        gradient: [u, 0.5 / height, (height - 1.0) / height, night],
         sun: vec4(light.sun_direction, 0.0),
         wide: vec4(lobes * (WIDE_STRENGTH + low), WIDE_SHARPNESS),
-        narrow: vec4(lobes * (NARROW_STRENGTH + low), NARROW_SHARPNESS),
+        narrow: vec4(lobes * (NARROW_STRENGTH + low), 0.0),
         band: vec4(BAND * twilight, BAND_SHARPNESS),
         overcast,
     }

@@ -30,13 +30,15 @@ pub const HORIZON: f32 = 0.012;
 const DISC_RADIANCE: f32 = 12.0;
 const GLOW_RADIANCE: f32 = 1.1;
 
-/// The sun's share of the uniforms. `texels` is the side of the texture, `pixel_rad` that of a pixel.
+/// The sun's share of the uniforms. `texels` is the side of the texture, `pixel_rad` that of a pixel; `shown` is
+/// whether it is drawn at all.
 pub fn uniforms(
     light: &Light,
     rays: &Rays,
     texels: u32,
     levels: usize,
     pixel_rad: f32,
+    shown: bool,
 ) -> SunUniforms {
     // Half the disc texture's side is its edge (see the role's channel meanings).
     let disc_half_side = 2.0 * DISC_RADIUS_RAD;
@@ -47,7 +49,7 @@ pub fn uniforms(
             .clamp(0.0, levels.saturating_sub(1) as f32)
     };
     let (right, up) = facing_axes(light.sun_direction, rays);
-    let shows = if light.sun_direction.y > -GLOW_HALF_SIDE {
+    let shows = if shown && light.sun_direction.y > -GLOW_HALF_SIDE {
         1.0
     } else {
         0.0

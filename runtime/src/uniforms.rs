@@ -1,6 +1,6 @@
 //! The uniform buffer: everything that is constant over a frame.
 //!
-//! All members are four floats wide, so that Rust's layout is WGSL's without padding. The WGSL structs
+//! All members are four floats wide or arrays of such, so that Rust's layout is WGSL's without padding. The WGSL structs
 //! of the same names are in the file of each pass; a test of [`crate::shader`] compares both.
 
 use bytemuck::{Pod, Zeroable};
@@ -33,7 +33,7 @@ pub struct SkyUniforms {
     pub sun: [f32; 4],
     /// rgb: radiance of the wide lobe towards the sun; w: its sharpness.
     pub wide: [f32; 4],
-    /// rgb: radiance of the narrow lobe; w: its sharpness.
+    /// rgb: radiance of the narrow lobe, the twelfth power of the wide one.
     pub narrow: [f32; 4],
     /// rgb: radiance of the twilight band on the horizon; w: how fast it fades upwards.
     pub band: [f32; 4],
@@ -71,10 +71,32 @@ pub struct GalaxyUniforms {
     pub light: [f32; 4],
 }
 
-/// Clouds.
+/// The skybox.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct SkyboxUniforms {
+    /// x: share of the skybox where its cover is 1; y: level of detail.
+    pub mix: [f32; 4],
+}
+
+/// What the clouds of every method share.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct CloudUniforms {
+    /// xy: unit vector to the sun's azimuth (east, south); zw: `v = z + w * place`.
+    pub gradient: [f32; 4],
+    /// rgb: light of the sun on clouds; w: 1 / sine of the elevation at which clouds are out of the haze.
+    pub sunlight: [f32; 4],
+    /// rgb: light of the sky on clouds.
+    pub ambient: [f32; 4],
+    /// rgb: the sunset colour, display-referred; w: sunset.
+    pub tint: [f32; 4],
+}
+
+/// Clouds of the packed method.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct PackedUniforms {
     /// x: scale; yz: offset; w: level of detail at distance 1.
     pub photo: [f32; 4],
     /// xy: scale times cosine and sine of its turn; zw: offset.
@@ -83,19 +105,86 @@ pub struct CloudUniforms {
     pub detail: [f32; 4],
     /// xy: scale to the east and to the south; zw: offset.
     pub upper: [f32; 4],
-    /// x, y: level of detail of noise and upper layer at distance 1; z: smoothness (line 19); w: sine of the
-    /// elevation at which clouds are out of the haze.
+    /// x, y: level of detail of noise and upper layer at distance 1; z: smoothness (line 19).
     pub levels: [f32; 4],
-    /// xy: unit vector to the sun's azimuth (east, south); zw: `v = z + w * place`.
-    pub gradient: [f32; 4],
     /// x: the cut of line 15; y: 1 / cover, as clamped in line 16; z: density; w: amount of the upper layer.
     pub shape: [f32; 4],
-    /// rgb: light of the sun on clouds.
-    pub sunlight: [f32; 4],
-    /// rgb: light of the sky on clouds.
-    pub ambient: [f32; 4],
-    /// rgb: the sunset colour, display-referred; w: sunset.
-    pub tint: [f32; 4],
+}
+
+/// A dome of the octaves method.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct OctaveDome {
+    /// xy: what a height to the east, zw: to the south adds to uv.
+    pub axes: [f32; 4],
+    /// xy: offset; z: level of detail at distance 1; w: the cut, 1 - cover.
+    pub place: [f32; 4],
+}
+
+/// Clouds of the octaves method.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct OctaveUniforms {
+    /// Low clouds.
+    pub low: OctaveDome,
+    /// Middle clouds.
+    pub middle: OctaveDome,
+    /// High clouds.
+    pub high: OctaveDome,
+    /// x: log2 of (1 - sharpness)^255; y: how thickness darkens; z: relief; w: share of the finer read.
+    pub shape: [f32; 4],
+    /// xy: a step of the low dome towards the sun, in uv.
+    pub sun: [f32; 4],
+    /// Copies of the noise across the map, octaves 1 to 4.
+    pub cells_a: [f32; 4],
+    /// The same, octaves 5 to 8.
+    pub cells_b: [f32; 4],
+    /// x: octaves; y: texels a side of the map; z: grey of a thin edge; w: 1 / thickness at which the high dome is full.
+    pub map: [f32; 4],
+}
+
+/// Clouds of the fbm method.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct FbmUniforms {
+    /// xy: what a height to the east, zw: to the south adds to uv.
+    pub axes: [f32; 4],
+    /// xy: offset; z: level of detail at distance 1.
+    pub place: [f32; 4],
+    /// x: m; y: n; z: octaves; w: texels a side of the map.
+    pub remap: [f32; 4],
+    /// rgb: the lit colour; w: what the shade is multiplied by.
+    pub lit: [f32; 4],
+    /// rgb: the shaded colour; w: share of the finer read.
+    pub shaded: [f32; 4],
+    /// xy: a step of the ray towards the sun, in tiles; z: mean of the sum of octaves; w: n for the ray's heights.
+    pub step: [f32; 4],
+    /// Offsets of octaves 1 and 2.
+    pub offsets_a: [f32; 4],
+    /// 3 and 4.
+    pub offsets_b: [f32; 4],
+    /// 5 and 6.
+    pub offsets_c: [f32; 4],
+    /// 7 and 8.
+    pub offsets_d: [f32; 4],
+    /// Weights of octaves 1 to 4.
+    pub weights_a: [f32; 4],
+    /// 5 to 8.
+    pub weights_b: [f32; 4],
+}
+
+/// The lens flare.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct FlareUniforms {
+    /// x: strength of the whole flare; y: radius, as a sine, in which clouds hide the sun.
+    pub light: [f32; 4],
+    /// xy: middle, zw: half sides, in clip space.
+    pub places: [[f32; 4]; 6],
+    /// rgb: colour; w: opacity.
+    pub colours: [[f32; 4]; 6],
+    /// xy: corner, z: side of the atlas cell; w: level of detail.
+    pub cells: [[f32; 4]; 6],
 }
 
 /// The last step.
@@ -120,8 +209,18 @@ pub struct Uniforms {
     pub stars: StarUniforms,
     /// Galaxy.
     pub galaxy: GalaxyUniforms,
-    /// Clouds.
+    /// The skybox.
+    pub skybox: SkyboxUniforms,
+    /// What the clouds of every method share.
     pub clouds: CloudUniforms,
+    /// Clouds of the packed method.
+    pub packed: PackedUniforms,
+    /// Clouds of the octaves method.
+    pub octaves: OctaveUniforms,
+    /// Clouds of the fbm method.
+    pub fbm: FbmUniforms,
+    /// The lens flare.
+    pub flares: FlareUniforms,
     /// The last step.
     pub tonemap: TonemapUniforms,
 }

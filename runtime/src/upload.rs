@@ -14,7 +14,7 @@ pub(crate) fn upload(
     queue: &wgpu::Queue,
     pack: &Pack,
     role: Role,
-) -> Result<wgpu::TextureView, SkyError> {
+) -> Result<wgpu::Texture, SkyError> {
     let texture = frame::texture(pack, role)?;
     refuse_too_large(role, texture, device.limits().max_texture_dimension_2d)?;
     let (width, height) = (texture.width, texture.height);
@@ -33,9 +33,37 @@ pub(crate) fn upload(
         view_formats: &[],
     };
     let bytes = texture.levels.concat();
-    let uploaded =
-        device.create_texture_with_data(queue, &descriptor, TextureDataOrder::MipMajor, &bytes);
-    Ok(uploaded.create_view(&wgpu::TextureViewDescriptor::default()))
+    Ok(device.create_texture_with_data(queue, &descriptor, TextureDataOrder::MipMajor, &bytes))
+}
+
+/// The skybox as a cube; a single empty texel a face if the pack has none.
+///
+/// # Errors
+/// As [`upload`].
+pub(crate) fn upload_skybox(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    pack: &Pack,
+) -> Result<wgpu::Texture, SkyError> {
+    if pack.texture(Role::Skybox).is_some() {
+        return upload(device, queue, pack, Role::Skybox);
+    }
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some("no skybox"),
+        size: wgpu::Extent3d {
+            width: 1,
+            height: 1,
+            depth_or_array_layers: 6,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8Unorm,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    };
+    let order = TextureDataOrder::MipMajor;
+    Ok(device.create_texture_with_data(queue, &descriptor, order, &[0; 24]))
 }
 
 /// `limit` is the device's `max_texture_dimension_2d`.

@@ -27,6 +27,8 @@ for (const file of files) {
       vkFormat: container.vkFormat,
       width: container.pixelWidth,
       height: container.pixelHeight,
+      layers: container.layerCount,
+      faces: container.faceCount,
       levels: levels.map((level) => level.byteLength),
       orientation: container.keyValue.KTXorientation,
       writer: container.keyValue.KTXwriter,

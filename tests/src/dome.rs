@@ -3,14 +3,14 @@
 use glam::{Vec2, Vec3};
 use welkin_runtime::dome::CLOUD_SPHERE_RADIUS;
 
-/// Where a ray meets the cloud dome: place on the plane, distance, and the root that gives the incidence.
+/// Where a ray meets the cloud dome: place on the plane, distance, and what gives the incidence.
 pub struct DomeHit {
     /// East and south, in heights of the cloud layer.
     pub plane: Vec2,
     /// Distance in the same unit.
     pub distance: f32,
-    /// Over (radius + 1): cosine of the angle between ray and normal.
-    pub root: f32,
+    /// Cosine of the angle between ray and normal.
+    pub cos_incidence: f32,
 }
 
 /// The cloud dome along a unit direction.
@@ -21,6 +21,6 @@ pub fn intersect(direction: Vec3) -> DomeHit {
     DomeHit {
         plane: Vec2::new(direction.x, direction.z) * distance,
         distance,
-        root,
+        cos_incidence: root / (CLOUD_SPHERE_RADIUS + 1.0),
     }
 }

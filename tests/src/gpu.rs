@@ -2,8 +2,12 @@
 
 use std::sync::OnceLock;
 
-use welkin_pack::Pack;
+use glam::Vec3;
+use welkin_pack::role::Wrap;
+use welkin_pack::{Image, Pack};
 use welkin_runtime::{Camera, Sky, SkyConfig, SkyParams};
+
+use crate::texture::Texture;
 
 /// An open device.
 #[derive(Debug)]
@@ -12,6 +16,8 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
+    /// Whether it is Mesa's software driver, which drew the golden pictures.
+    pub is_llvmpipe: bool,
 }
 
 /// The device of this test program. Mesa's software Vulkan will do.
@@ -33,7 +39,11 @@ pub fn gpu() -> &'static Gpu {
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
             .expect("a device with WebGL2's limits");
-        Gpu { device, queue }
+        Gpu {
+            device,
+            queue,
+            is_llvmpipe: adapter.get_info().name.starts_with("llvmpipe"),
+        }
     })
 }
 
@@ -105,18 +115,27 @@ pub fn pass(
 /// The texels of a target as RGBA floats, row by row from the top: stored values, 0..1 where it is unorm.
 ///
 /// # Panics
-/// On formats other than 8-bit RGBA and Rgba16Float, and if the device is lost.
+/// As [`read_level`].
 pub fn read(target: &wgpu::Texture) -> Vec<[f32; 4]> {
+    read_level(target, 0)
+}
+
+/// The same of one level. A channel that the format lacks is 0, alpha 1.
+///
+/// # Panics
+/// On formats other than R8Unorm, 8-bit RGBA and Rgba16Float, and if the device is lost.
+pub fn read_level(target: &wgpu::Texture, level: u32) -> Vec<[f32; 4]> {
     let texel_bytes = target
         .format()
         .block_copy_size(None)
         .expect("a colour format");
-    let row_bytes = target.width() * texel_bytes;
+    let size = target.size().mip_level_size(level, target.dimension());
+    let row_bytes = size.width * texel_bytes;
     let stride = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let Gpu { device, queue } = gpu();
+    let Gpu { device, queue, .. } = gpu();
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("read back"),
-        size: u64::from(stride) * u64::from(target.height()),
+        size: u64::from(stride) * u64::from(size.height),
         usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     });
@@ -125,12 +144,16 @@ pub fn read(target: &wgpu::Texture) -> Vec<[f32; 4]> {
         bytes_per_row: Some(stride),
         rows_per_image: None,
     };
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    let copy = wgpu::TexelCopyBufferInfo {
+    let from = wgpu::TexelCopyTextureInfo {
+        mip_level: level,
+        ..target.as_image_copy()
+    };
+    let to = wgpu::TexelCopyBufferInfo {
         buffer: &buffer,
         layout,
     };
-    encoder.copy_texture_to_buffer(target.as_image_copy(), copy, target.size());
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_texture_to_buffer(from, to, size);
     queue.submit([encoder.finish()]);
     buffer.slice(..).map_async(wgpu::MapMode::Read, |result| {
         result.expect("the buffer maps")
@@ -152,11 +175,30 @@ pub fn read(target: &wgpu::Texture) -> Vec<[f32; 4]> {
 
 fn texel(bytes: &[u8]) -> [f32; 4] {
     match bytes.len() {
+        1 => [f32::from(bytes[0]) / 255.0, 0.0, 0.0, 1.0],
         4 => [0, 1, 2, 3].map(|c| f32::from(bytes[c]) / 255.0),
         8 => [0, 1, 2, 3]
             .map(|c| half::f16::from_le_bytes([bytes[2 * c], bytes[2 * c + 1]]).to_f32()),
         n => panic!("texels of {n} bytes are not read back here"),
     }
+}
+
+/// The cloud map of the prepared frame with its levels, if its method draws one.
+pub fn read_map(sky: &Sky) -> Option<Texture> {
+    let map = sky.cloud_map()?;
+    let level = |level: u32| Image {
+        width: map.width() >> level,
+        height: map.height() >> level,
+        channels: 4,
+        texels: read_level(map, level).concat(),
+    };
+    let levels = (0..map.mip_level_count()).map(level).collect();
+    Some(Texture::from_levels(levels, Wrap::Repeat))
+}
+
+/// The first three channels of texels.
+pub fn rgb(texels: &[[f32; 4]]) -> Vec<Vec3> {
+    texels.iter().map(|t| Vec3::new(t[0], t[1], t[2])).collect()
 }
 
 /// A sky on the test device, without depth or multisampling.
@@ -172,6 +214,14 @@ pub fn sky(pack: &Pack, target_format: wgpu::TextureFormat) -> Sky {
     Sky::new(&gpu().device, &gpu().queue, config, pack).expect("the sky is made")
 }
 
+/// Prepares a frame: its off-screen passes are drawn.
+pub fn prepare(sky: &mut Sky, params: &SkyParams, camera: &Camera, seconds: f64) {
+    let Gpu { device, queue, .. } = gpu();
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    sky.prepare(queue, &mut encoder, params, camera, seconds);
+    queue.submit([encoder.finish()]);
+}
+
 /// One frame, read back.
 pub fn render(
     sky: &mut Sky,
@@ -181,7 +231,7 @@ pub fn render(
     seconds: f64,
 ) -> Vec<[f32; 4]> {
     let target = target(format, camera.viewport_px, 1);
-    sky.prepare(&gpu().queue, params, camera, seconds);
+    prepare(sky, params, camera, seconds);
     pass(&target, None, None, |pass| sky.draw(pass));
     read(&target)
 }

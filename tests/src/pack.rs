@@ -1,10 +1,12 @@
 //! Packs for tests: the default one, and changed ones.
 
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::sync::OnceLock;
 
 use welkin_baker::Resolved;
-use welkin_pack::{Image, Pack, PackInfo, Role, Source};
+use welkin_pack::mapping::cube_to_direction;
+use welkin_pack::{Format, Image, Pack, PackInfo, Role, Source};
 
 /// The default recipe's pack, baked once a test program.
 ///
@@ -24,20 +26,90 @@ fn resolved() -> Resolved {
         .expect("the default recipe resolves")
 }
 
-/// The default pack with other images and another sun: `change` gets the linear image of each role.
+/// The pack of a recipe in assets-src/recipes.
+///
+/// # Panics
+/// If it cannot be baked.
+pub fn recipe_pack(name: &str) -> Pack {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets-src/recipes");
+    let file = folder.join(format!("{name}.toml"));
+    let text = std::fs::read_to_string(&file).expect("the recipe is there");
+    let resolved = welkin_baker::Recipe::parse(&file.display().to_string(), &text)
+        .and_then(|recipe| recipe.resolve(None))
+        .expect("the recipe resolves");
+    welkin_baker::bake(&resolved, Some(&folder), &|_| ControlFlow::Continue(()))
+        .expect("the pack bakes")
+}
+
+/// The default pack with `count` octaves of smooth noise: its own, again and again.
+///
+/// # Panics
+/// If that is no pack.
+pub fn with_octaves(count: usize) -> Pack {
+    let mut sources = sources();
+    for source in &mut sources {
+        if source.role == Role::Fbm {
+            source.images = source.images.iter().cycle().take(count).cloned().collect();
+        }
+    }
+    build(None, sources)
+}
+
+/// The default pack with other images and another sun: `change` gets every linear image (one a layer) with its role.
 ///
 /// # Panics
 /// If the changed images are no pack any more.
 pub fn changed_pack(noon_elevation_rad: Option<f32>, change: impl Fn(Role, &mut Image)) -> Pack {
+    let mut sources = sources();
+    sources
+        .iter_mut()
+        .flat_map(|source| source.images.iter_mut().map(|image| (source.role, image)))
+        .for_each(|(role, image)| change(role, image));
+    build(noon_elevation_rad, sources)
+}
+
+/// The default pack in a skybox that has one radiance all around.
+///
+/// # Panics
+/// If that is no pack.
+pub fn in_skybox(radiance: f32) -> Pack {
+    with_skybox(16, |_| [radiance, radiance, radiance, 1.0])
+}
+
+/// The default pack with a skybox of `size` texels a face: `scene` gives radiance times cover and cover along a
+/// unit direction.
+///
+/// # Panics
+/// If that is no pack.
+pub fn with_skybox(size: u32, scene: impl Fn([f32; 3]) -> [f32; 4]) -> Pack {
+    let face = |face| {
+        let mut image = Image::new(size, size, 4);
+        for (i, texel) in (0..).zip(image.texels.chunks_exact_mut(4)) {
+            let st = [i % size, i / size].map(|c| (c as f32 + 0.5) / size as f32);
+            texel.copy_from_slice(&scene(cube_to_direction(face, st)));
+        }
+        image
+    };
+    let mut sources = sources();
+    sources.push(Source {
+        role: Role::Skybox,
+        format: Format::Rgba16Float,
+        images: (0..6).map(face).collect(),
+    });
+    build(None, sources)
+}
+
+/// The default images, made once a test program.
+fn sources() -> Vec<Source> {
     static SOURCES: OnceLock<Vec<Source>> = OnceLock::new();
-    let sources = SOURCES.get_or_init(|| {
+    let made = SOURCES.get_or_init(|| {
         welkin_baker::sources(&resolved(), None, &|_| ControlFlow::Continue(()))
             .expect("the default images are made")
     });
-    let mut sources = sources.clone();
-    sources
-        .iter_mut()
-        .for_each(|source| change(source.role, &mut source.image));
+    made.clone()
+}
+
+fn build(noon_elevation_rad: Option<f32>, sources: Vec<Source>) -> Pack {
     let usual = default_pack().manifest();
     let info = PackInfo {
         name: "changed".to_string(),

@@ -16,14 +16,29 @@ impl Texture {
     /// # Panics
     /// If the pack lacks it.
     pub fn new(pack: &Pack, role: Role) -> Texture {
+        Texture::layer(pack, role, 0)
+    }
+
+    /// One layer of an array, or face of a cube, from 0.
+    ///
+    /// # Panics
+    /// If the pack lacks it.
+    pub fn layer(pack: &Pack, role: Role, layer: u32) -> Texture {
         let texture = pack.texture(role).expect("the pack has every role");
         let levels = (0..texture.levels.len())
-            .map(|level| texture.image(level, 0))
+            .map(|level| texture.image(level, layer))
             .collect();
-        Texture {
-            levels,
-            wrap: role.spec().wrap,
-        }
+        Texture::from_levels(levels, role.spec().wrap)
+    }
+
+    /// A texture of these levels, largest first.
+    pub fn from_levels(levels: Vec<Image>, wrap: Wrap) -> Texture {
+        Texture { levels, wrap }
+    }
+
+    /// Its levels, largest first.
+    pub fn levels(&self) -> &[Image] {
+        &self.levels
     }
 
     /// One texel as it is; missing channels are 0.
@@ -66,7 +81,8 @@ impl Texture {
     }
 }
 
-fn mix(a: [f32; 4], b: [f32; 4], share: f32) -> [f32; 4] {
+/// WGSL's mix.
+pub(crate) fn mix(a: [f32; 4], b: [f32; 4], share: f32) -> [f32; 4] {
     [0, 1, 2, 3].map(|i| a[i] * (1.0 - share) + b[i] * share)
 }
 

@@ -1,6 +1,7 @@
 //! The sky stands behind the scene, with either depth convention, and with four samples a pixel.
 
-use welkin_runtime::{Camera, DepthConfig, Sky, SkyConfig, SkyError, SkyParams};
+use welkin_pack::mapping;
+use welkin_runtime::{Camera, DepthConfig, Method, Sky, SkyConfig, SkyError, SkyParams};
 use welkin_tests::{gpu, pack};
 
 const SIZE: [u32; 2] = [64, 48];
@@ -15,7 +16,7 @@ const SCENE: &str = "
 @fragment fn fs() -> @location(0) vec4f { return vec4f(1.0, 0.0, 1.0, 1.0); }
 ";
 
-fn scene(samples: u32, reversed: bool) -> wgpu::RenderPipeline {
+fn scene(samples: u32, reversed: bool, format: wgpu::TextureFormat) -> wgpu::RenderPipeline {
     let device = &gpu::gpu().device;
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,
@@ -54,7 +55,7 @@ fn scene(samples: u32, reversed: bool) -> wgpu::RenderPipeline {
             module: &module,
             entry_point: Some("fs"),
             compilation_options: Default::default(),
-            targets: &[Some(FORMAT.into())],
+            targets: &[Some(format.into())],
         }),
         multiview_mask: None,
         cache: None,
@@ -73,6 +74,7 @@ fn new_sky(config: SkyConfig) -> Result<Sky, SkyError> {
 fn params() -> SkyParams {
     SkyParams {
         time: 0.4,
+        flare: 0.0,
         ..SkyParams::default()
     }
 }
@@ -81,26 +83,41 @@ fn camera() -> Camera {
     Camera::looking(0.5, 0.4, 1.0, SIZE)
 }
 
-/// Scene and sky in one pass; the scene first or last.
-fn with_scene(samples: u32, reversed: bool, scene_first: bool) -> Vec<[f32; 4]> {
+/// How scene and sky are drawn.
+#[derive(Clone, Copy, Debug)]
+struct Setting {
+    format: wgpu::TextureFormat,
+    samples: u32,
+    reversed: bool,
+    scene_first: bool,
+}
+
+/// Scene and sky in one pass.
+fn with_scene(setting: Setting, params: &SkyParams, camera: &Camera) -> Vec<[f32; 4]> {
+    let Setting {
+        format,
+        samples,
+        reversed,
+        scene_first,
+    } = setting;
     let depth = DepthConfig {
         format: DEPTH,
         reversed,
     };
     let config = SkyConfig {
-        target_format: FORMAT,
+        target_format: format,
         depth: Some(depth),
         sample_count: samples,
     };
     let mut sky = new_sky(config).expect("the sky is made");
-    sky.prepare(&gpu::gpu().queue, &params(), &camera(), 0.0);
+    gpu::prepare(&mut sky, params, camera, 0.0);
     let (target, depth) = (
-        gpu::target(FORMAT, SIZE, 1),
+        gpu::target(format, SIZE, 1),
         gpu::target(DEPTH, SIZE, samples),
     );
-    let many = (samples > 1).then(|| gpu::target(FORMAT, SIZE, samples));
+    let many = (samples > 1).then(|| gpu::target(format, SIZE, samples));
     let far = if reversed { 0.0 } else { 1.0 };
-    let scene = scene(samples, reversed);
+    let scene = scene(samples, reversed, format);
     gpu::pass(&target, many.as_ref(), Some((&depth, far)), |pass| {
         if !scene_first {
             sky.draw(pass);
@@ -114,6 +131,24 @@ fn with_scene(samples: u32, reversed: bool, scene_first: bool) -> Vec<[f32; 4]> 
     gpu::read(&target)
 }
 
+/// Every way to draw into a target of this format.
+fn settings(format: wgpu::TextureFormat) -> Vec<Setting> {
+    let mut settings = Vec::new();
+    for samples in [1, 4] {
+        for reversed in [false, true] {
+            for scene_first in [true, false] {
+                settings.push(Setting {
+                    format,
+                    samples,
+                    reversed,
+                    scene_first,
+                });
+            }
+        }
+    }
+    settings
+}
+
 #[test]
 fn the_scene_hides_the_sky_and_the_sky_fills_the_rest() {
     let plain = gpu::render(
@@ -123,27 +158,73 @@ fn the_scene_hides_the_sky_and_the_sky_fills_the_rest() {
         &camera(),
         0.0,
     );
-    for samples in [1, 4] {
-        for reversed in [false, true] {
-            for scene_first in [true, false] {
-                let picture = with_scene(samples, reversed, scene_first);
-                for (index, (texel, alone)) in picture.iter().zip(&plain).enumerate() {
-                    let scene = index as u32 % SIZE[0] < SIZE[0] / 2;
-                    let expected = if scene { [1.0, 0.0, 1.0, 1.0] } else { *alone };
-                    // Shading happens once a pixel, so four samples hold one colour; resolving it may round.
-                    let off = (0..4)
-                        .map(|c| (texel[c] - expected[c]).abs())
-                        .fold(0.0, f32::max);
-                    let case = format!(
-                        "{samples} samples, reversed {reversed}, scene first {scene_first}"
-                    );
-                    assert!(
-                        off <= 1.01 / 255.0,
-                        "{case}: pixel {index} is {texel:?}, expected {expected:?}"
-                    );
+    for setting in settings(FORMAT) {
+        let picture = with_scene(setting, &params(), &camera());
+        for (index, (texel, alone)) in picture.iter().zip(&plain).enumerate() {
+            let scene = index as u32 % SIZE[0] < SIZE[0] / 2;
+            let expected = if scene { [1.0, 0.0, 1.0, 1.0] } else { *alone };
+            // Shading happens once a pixel, so four samples hold one colour; resolving it may round.
+            let off = (0..4)
+                .map(|c| (texel[c] - expected[c]).abs())
+                .fold(0.0, f32::max);
+            assert!(
+                off <= 1.01 / 255.0,
+                "{setting:?}: pixel {index} is {texel:?}, expected {expected:?}"
+            );
+        }
+    }
+}
+
+/// The flare is light in the lens, before everything: it falls on the scene as on the sky, with any method.
+#[test]
+fn the_flare_lies_over_the_scene() {
+    let format = wgpu::TextureFormat::Rgba16Float;
+    let pack = pack::default_pack();
+    let sun = mapping::sun_direction(0.4, pack.manifest().noon_elevation_rad);
+    let (azimuth, elevation) = mapping::angles_from_direction(sun);
+    let camera = Camera::looking(azimuth + 0.15, elevation + 0.1, 1.0, SIZE);
+    for (index, setting) in settings(format)
+        .into_iter()
+        .filter(|s| s.scene_first)
+        .enumerate()
+    {
+        let params = SkyParams {
+            method: Method::ALL[index % Method::ALL.len()],
+            sun: false,
+            cover: 0.2,
+            ..params()
+        };
+        let [without, with] = [0.0, 1.0].map(|flare| SkyParams { flare, ..params });
+        let mut plain = gpu::sky(pack, format);
+        let [sky_without, sky_with] =
+            [&without, &with].map(|params| gpu::render(&mut plain, format, params, &camera, 0.0));
+        let [scene_without, scene_with] =
+            [&without, &with].map(|params| with_scene(setting, params, &camera));
+        // Four half floats of at most 2. Of four samples some lie inside a square where its edge crosses a pixel; there the
+        // pictures of the flare are nearly black.
+        let bound = if setting.samples == 1 {
+            4.0 / 1024.0
+        } else {
+            0.02
+        };
+        let mut over_scene = 0.0;
+        for index in 0..scene_with.len() {
+            for c in 0..3 {
+                let on_sky = sky_with[index][c] - sky_without[index][c];
+                let on_scene = scene_with[index][c] - scene_without[index][c];
+                assert!(
+                    (on_sky - on_scene).abs() < bound,
+                    "{setting:?}: pixel {index}: {on_scene} for {on_sky}"
+                );
+                if index as u32 % SIZE[0] < SIZE[0] / 2 {
+                    over_scene += on_scene;
                 }
             }
         }
+        assert!(
+            over_scene > 1.0,
+            "{setting:?}: there is a flare over the scene: {over_scene}"
+        );
     }
 }
 

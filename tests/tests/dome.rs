@@ -82,21 +82,16 @@ fn the_mesh_draws_the_same_picture_as_the_triangle_over_the_screen() {
     let mut screen = gpu::sky(pack::default_pack(), format);
     let mut mesh = Sky::with_dome_mesh(&gpu.device, &gpu.queue, config, pack::default_pack(), 10.0)
         .expect("a sky");
-    let rgb = |texels: Vec<[f32; 4]>| {
-        texels
-            .iter()
-            .map(|t| Vec3::new(t[0], t[1], t[2]))
-            .collect::<Vec<_>>()
-    };
     for (time, elevation) in [(0.4, 45.0_f32), (0.0, 45.0), (0.74, 90.0)] {
         // The dome ends at the horizon, so the camera looks well over it.
         let camera = Camera::looking(1.0, elevation.to_radians(), 1.0, SIZE);
         let params = SkyParams {
             time,
+            flare: 0.0,
             ..SkyParams::default()
         };
-        let expected = rgb(gpu::render(&mut screen, format, &params, &camera, 9.0));
-        let actual = rgb(gpu::render(&mut mesh, format, &params, &camera, 9.0));
+        let expected = gpu::rgb(&gpu::render(&mut screen, format, &params, &camera, 9.0));
+        let actual = gpu::rgb(&gpu::render(&mut mesh, format, &params, &camera, 9.0));
         let contrast = local_contrast(&expected);
         let shifted: Vec<Vec3> = expected
             .iter()

@@ -12,6 +12,7 @@ fn clear(dither: bool) -> SkyParams {
         cover: 0.0,
         time: 0.5,
         dither,
+        flare: 0.0,
         ..SkyParams::default()
     }
 }

@@ -1,7 +1,7 @@
 //! No parameter, camera, sun or time makes a pixel that is not a finite, positive amount of light.
 
 use welkin_pack::Pack;
-use welkin_runtime::{Camera, SkyParams};
+use welkin_runtime::{Camera, FbmParams, Method, OctaveParams, SkyParams};
 use welkin_tests::{gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -11,7 +11,7 @@ fn assert_light(pack: &Pack, cases: &[(SkyParams, Camera, f64)]) {
     let mut sky = gpu::sky(pack, FORMAT);
     for (params, camera, seconds) in cases {
         let target = gpu::target(FORMAT, SIZE, 1);
-        sky.prepare(&gpu::gpu().queue, params, camera, *seconds);
+        gpu::prepare(&mut sky, params, camera, *seconds);
         gpu::pass(&target, None, None, |pass| sky.draw(pass));
         for (index, texel) in gpu::read(&target).iter().enumerate() {
             let sound = texel.iter().all(|c| c.is_finite() && *c >= 0.0) && texel[3] == 1.0;
@@ -35,17 +35,17 @@ fn views() -> Vec<Camera> {
 fn at_every_hour_in_every_special_direction() {
     let hours = [0.0, 0.2, 0.25, 0.3, 0.5, 0.75, 0.8, 1.0];
     let mut cases = Vec::new();
-    for view in views() {
-        for time in hours {
-            cases.push((
-                SkyParams {
+    for method in Method::ALL {
+        for view in views() {
+            for time in hours {
+                let params = SkyParams {
                     time,
+                    method,
                     upper_layer: 0.5,
                     ..SkyParams::default()
-                },
-                view,
-                1.0,
-            ));
+                };
+                cases.push((params, view, 1.0));
+            }
         }
     }
     assert_light(pack::default_pack(), &cases);
@@ -55,19 +55,51 @@ fn at_every_hour_in_every_special_direction() {
 fn with_the_sun_exactly_at_the_zenith_on_the_horizon_and_at_the_nadir() {
     let overhead = pack::changed_pack(Some(std::f32::consts::FRAC_PI_2), |_, _| {});
     let mut cases = Vec::new();
-    for view in views() {
-        for time in [0.0, 0.25, 0.5, 0.75] {
-            cases.push((
-                SkyParams {
+    for method in Method::ALL {
+        for view in views() {
+            for time in [0.0, 0.25, 0.5, 0.75] {
+                let params = SkyParams {
                     time,
+                    method,
                     ..SkyParams::default()
-                },
-                view,
-                0.0,
-            ));
+                };
+                cases.push((params, view, 0.0));
+            }
         }
     }
     assert_light(&overhead, &cases);
+}
+
+/// Every number set to the same.
+fn all(method: Method, number: f32) -> SkyParams {
+    SkyParams {
+        cover: number,
+        height: number,
+        density: number,
+        sunset: number,
+        speed: number,
+        time: number,
+        upper_layer: number,
+        exposure: number,
+        dither: true,
+        method,
+        octaves: OctaveParams {
+            // More than eight would only take longer to be clamped to eight.
+            count: if number >= 1.0 { 4 } else { 0 },
+            sharpness: number,
+            formation_interval_s: number,
+            domes: [number; 3],
+        },
+        fbm: FbmParams {
+            sharpness: number,
+            lit: [number; 3],
+            shaded: [number; 3],
+        },
+        sun: true,
+        stars: true,
+        flare: number,
+        skybox: number,
+    }
 }
 
 #[test]
@@ -83,24 +115,17 @@ fn with_parameters_out_of_range_and_not_numbers() {
         0.0,
         1.0,
     ] {
-        let params = SkyParams {
-            cover: wild,
-            height: wild,
-            density: wild,
-            sunset: wild,
-            speed: wild,
-            time: wild,
-            upper_layer: wild,
-            exposure: wild,
-            dither: true,
-        };
-        cases.extend(views().into_iter().map(|view| (params, view, 3.0)));
-        let alone = SkyParams {
-            density: wild,
-            cover: 0.0,
-            ..SkyParams::default()
-        };
-        cases.extend(views().into_iter().map(|view| (alone, view, 3.0)));
+        for method in Method::ALL {
+            let params = all(method, wild);
+            cases.extend(views().into_iter().map(|view| (params, view, 3.0)));
+            let alone = SkyParams {
+                density: wild,
+                cover: 0.0,
+                method,
+                ..SkyParams::default()
+            };
+            cases.extend(views().into_iter().map(|view| (alone, view, 3.0)));
+        }
     }
     assert_light(pack::default_pack(), &cases);
 }
@@ -112,9 +137,17 @@ fn with_times_without_end_and_broken_cameras() {
         ..SkyParams::default()
     };
     let view = Camera::looking(0.0, 0.5, 1.0, SIZE);
-    let mut cases: Vec<_> = [f64::NAN, f64::INFINITY, -1e12, 1e12, 1e300]
-        .map(|t| (params, view, t))
-        .to_vec();
+    let mut cases = Vec::new();
+    for method in Method::ALL {
+        let params = SkyParams { method, ..params };
+        let ages = [f64::NAN, f64::INFINITY, -1e12, 1e12, 1e300];
+        cases.extend(ages.map(|seconds| (params, view, seconds)));
+        let far = [f32::NAN, f32::INFINITY, -1e6, 1e30].map(|metres| Camera {
+            position_m: glam::Vec3::splat(metres),
+            ..view
+        });
+        cases.extend(far.map(|view| (params, view, 5.0)));
+    }
     let cameras = [
         Camera::looking(f32::NAN, 0.0, 1.0, SIZE),
         Camera::looking(0.0, 0.0, 0.0, SIZE),

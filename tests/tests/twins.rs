@@ -1,78 +1,32 @@
-//! GPU and CPU agree, pixel by pixel, for skies of every kind.
+//! GPU and CPU agree, pixel by pixel, for skies of every kind and every method.
 
 use glam::Vec3;
-use welkin_runtime::frame::Facts;
-use welkin_runtime::{Camera, SkyParams};
-use welkin_tests::renderer::Twin;
+use welkin_runtime::{Camera, FbmParams, Method, OctaveParams, SkyParams};
+use welkin_tests::clouds::MOST_READS;
+use welkin_tests::renderer::{FILTER_STEP, Frame, Twin};
 use welkin_tests::{compare, gpu, pack, tonemap};
 
 const SIZE: [u32; 2] = [96, 72];
 
-/// Name, parameters, azimuth and elevation of the camera in degrees, seconds.
-fn skies() -> Vec<(&'static str, SkyParams, f32, f32, f64)> {
-    let day = SkyParams::default();
-    let at = |time: f32, cover: f32| SkyParams { time, cover, ..day };
-    vec![
-        ("figure_2", SkyParams::figure_2(), 120.0, 22.0, 40.0),
-        ("figure_4", SkyParams::figure_4(), 255.0, 18.0, 0.0),
-        ("noon", at(0.5, 0.6), 180.0, 40.0, 12.0),
-        (
-            "sunset",
-            SkyParams {
-                sunset: 0.7,
-                ..at(0.745, 0.6)
-            },
-            270.0,
-            12.0,
-            100.0,
-        ),
-        ("twilight", at(0.77, 0.5), 270.0, 10.0, 3.0),
-        ("night", at(0.0, 0.3), 180.0, 45.0, 21.5),
-        ("clear_night_zenith", at(0.98, 0.0), 0.0, 90.0, 63.9),
-        (
-            "overcast",
-            SkyParams {
-                density: 0.5,
-                ..at(0.4, 0.95)
-            },
-            20.0,
-            30.0,
-            500.0,
-        ),
-        (
-            "dense",
-            SkyParams {
-                density: 1.0,
-                height: 0.0,
-                ..at(0.6, 0.5)
-            },
-            330.0,
-            60.0,
-            7.0,
-        ),
-        (
-            "upper_layer",
-            SkyParams {
-                upper_layer: 1.0,
-                sunset: 0.5,
-                ..at(0.3, 0.45)
-            },
-            80.0,
-            25.0,
-            50.0,
-        ),
-        ("below_the_horizon", at(0.35, 0.7), 100.0, -30.0, 0.0),
-        (
-            "late",
-            SkyParams {
-                speed: 1.0,
-                ..at(0.5, 0.7)
-            },
-            200.0,
-            50.0,
-            1e6,
-        ),
-    ]
+/// A sky to compare.
+struct Case {
+    name: String,
+    params: SkyParams,
+    camera: Camera,
+    seconds: f64,
+}
+
+/// Azimuth and elevation of the camera are in degrees.
+fn case(name: &str, params: SkyParams, azimuth: f32, elevation: f32, seconds: f64) -> Case {
+    Case {
+        name: format!("{}_{name}", params.method.name()),
+        params: SkyParams {
+            flare: 0.0,
+            ..params
+        },
+        camera: camera(azimuth, elevation),
+        seconds,
+    }
 }
 
 fn camera(azimuth_deg: f32, elevation_deg: f32) -> Camera {
@@ -84,50 +38,189 @@ fn camera(azimuth_deg: f32, elevation_deg: f32) -> Camera {
     )
 }
 
-fn rgb(texels: &[[f32; 4]]) -> Vec<Vec3> {
-    texels.iter().map(|t| Vec3::new(t[0], t[1], t[2])).collect()
+/// Skies that every method draws.
+fn shared_skies(method: Method) -> Vec<Case> {
+    let day = SkyParams {
+        method,
+        ..SkyParams::default()
+    };
+    let at = |time: f32, cover: f32| SkyParams { time, cover, ..day };
+    let sunset = SkyParams {
+        sunset: 0.7,
+        ..at(0.745, 0.6)
+    };
+    let overcast = SkyParams {
+        density: 0.5,
+        ..at(0.4, 0.95)
+    };
+    let late = SkyParams {
+        speed: 1.0,
+        ..at(0.5, 0.7)
+    };
+    let mut walked = case("walked", at(0.45, 0.5), 60.0, 50.0, 30.0);
+    walked.camera.position_m = Vec3::new(2750.0, 120.0, -1300.0);
+    vec![
+        case("noon", at(0.5, 0.6), 180.0, 40.0, 12.0),
+        case("sunset", sunset, 270.0, 12.0, 100.0),
+        case("twilight", at(0.77, 0.5), 270.0, 10.0, 3.0),
+        case("night", at(0.0, 0.3), 180.0, 45.0, 21.5),
+        case("overcast", overcast, 20.0, 30.0, 500.0),
+        case("shut", at(0.55, 1.0), 140.0, 15.0, 45.0),
+        case("below_the_horizon", at(0.35, 0.7), 100.0, -30.0, 0.0),
+        case("zenith", at(0.6, 0.5), 0.0, 90.0, 63.9),
+        case("late", late, 200.0, 50.0, 1e6),
+        walked,
+    ]
 }
 
-/// What one step of the cloud texture is worth in radiance.
-///
-/// A texture unit may filter 8-bit texels in 8 bits (Mesa's software does; Vulkan asks for no more), which
-/// makes an amount of cloud wrong by up to one step, 1/255. Opacity takes that times 1 / cover (line 17) times
-/// 1 + 2 density (line 21), and the picture takes the opacity's error times the contrast of clouds, at
-/// most their white.
-fn cloud_step(params: &SkyParams) -> f32 {
-    let facts = Facts::new(pack::default_pack()).expect("the pack has every role");
-    let clouds = facts.uniforms(params, &camera(0.0, 0.0), 0.0, 0.0).clouds;
-    let white = (0..3)
-        .map(|c| clouds.sunlight[c] + clouds.ambient[c])
-        .fold(0.0, f32::max);
-    white * (1.0 + 2.0 * params.density) / params.cover.max(0.05) / 255.0
+fn packed_skies() -> Vec<Case> {
+    let day = SkyParams::default();
+    let dense = SkyParams {
+        density: 1.0,
+        height: 0.0,
+        time: 0.6,
+        cover: 0.5,
+        ..day
+    };
+    let upper_layer = SkyParams {
+        upper_layer: 1.0,
+        sunset: 0.5,
+        time: 0.3,
+        cover: 0.45,
+        ..day
+    };
+    let clear_night = SkyParams {
+        time: 0.98,
+        cover: 0.0,
+        ..day
+    };
+    vec![
+        case("figure_2", SkyParams::figure_2(), 120.0, 22.0, 40.0),
+        case("figure_4", SkyParams::figure_4(), 255.0, 18.0, 0.0),
+        case("dense", dense, 330.0, 60.0, 7.0),
+        case("upper_layer", upper_layer, 80.0, 25.0, 50.0),
+        case("clear_night_zenith", clear_night, 0.0, 90.0, 63.9),
+    ]
 }
 
-/// What radiance may differ by, for each expected value: the step of the clouds; 2 % for half floats
-/// (2^-11), bilinear weights of 8 bits, the exponentials of a GPU (2^-11) and 8-bit filtering of galaxy and
-/// sun; and the least that a half float tells in the dark.
-fn allowed(params: &SkyParams) -> impl Fn(f32) -> f32 {
-    let step = cloud_step(params);
-    move |radiance| step + 0.02 * radiance + 1e-4
+fn octave_skies() -> Vec<Case> {
+    let day = SkyParams {
+        method: Method::Octaves,
+        ..SkyParams::default()
+    };
+    let with = |octaves: OctaveParams| SkyParams { octaves, ..day };
+    let usual = OctaveParams::default();
+    let storm = SkyParams {
+        cover: 0.9,
+        density: 0.9,
+        time: 0.42,
+        ..day
+    };
+    let dome = |index: usize| {
+        let mut domes = [0.0; 3];
+        domes[index] = 1.0;
+        with(OctaveParams { domes, ..usual })
+    };
+    let sharp = with(OctaveParams {
+        sharpness: 0.1,
+        ..usual
+    });
+    let six = with(OctaveParams { count: 6, ..usual });
+    vec![
+        case("storm", storm, 160.0, 25.0, 70.0),
+        case("low", dome(0), 90.0, 35.0, 8.0),
+        case("middle", dome(1), 300.0, 35.0, 8.0),
+        case("high", dome(2), 10.0, 35.0, 8.0),
+        case("sharp", sharp, 240.0, 50.0, 59.99),
+        case("six_octaves", six, 330.0, 40.0, 33.0),
+    ]
 }
 
-/// What radiance may differ by on average: rounding is off by a quarter of a step.
-fn allowed_mean(params: &SkyParams) -> f32 {
-    cloud_step(params) / 4.0 + 1e-4
+fn fbm_skies() -> Vec<Case> {
+    let day = SkyParams {
+        method: Method::Fbm,
+        ..SkyParams::default()
+    };
+    let storm = SkyParams {
+        cover: 0.9,
+        density: 0.9,
+        time: 0.42,
+        fbm: FbmParams::STORMY,
+        ..day
+    };
+    let sharpness = |sharpness: f32| SkyParams {
+        fbm: FbmParams {
+            sharpness,
+            lit: [1.0, 0.9, 0.6],
+            shaded: [0.2, 0.4, 0.7],
+        },
+        ..day
+    };
+    vec![
+        case("storm", storm, 160.0, 25.0, 70.0),
+        case("soft", sharpness(0.0), 90.0, 35.0, 8.0),
+        case("sharp", sharpness(0.8), 300.0, 35.0, 1234.5),
+    ]
 }
 
+fn skies() -> Vec<Case> {
+    let own = [packed_skies(), octave_skies(), fbm_skies()];
+    let shared = Method::ALL.map(shared_skies);
+    shared.into_iter().chain(own).flatten().collect()
+}
+
+/// What radiance may differ by, for each pixel and its expected value, where each read of clouds is off by up to `off`: what
+/// that is worth; 2 % for half floats (2^-11), bilinear weights of 8 bits, the exponentials of a GPU (2^-11) and
+/// 8-bit filtering of galaxy and sun; and the least that a half float tells in the dark.
+fn allowed(frame: &mut Frame, off: [f32; MOST_READS], expected: &[Vec3]) -> Vec<Vec3> {
+    let worth = frame.worth_of_reads(off, Frame::render);
+    let others = expected.iter().map(|e| 0.02 * e.abs() + 1e-4);
+    worth.iter().zip(others).map(|(w, o)| *w + o).collect()
+}
+
+/// What a read of the twin's own map may be off by: the filter's step and what the map is off by.
+fn off_with_own_map(frame: &Frame) -> [f32; MOST_READS] {
+    let (most, _) = frame.map_allowance();
+    frame
+        .in_order_of_reads(most)
+        .map(|bytes| (bytes + 1.0) / 255.0)
+}
+
+/// Expected and actual in units of what each pixel may differ by.
+fn in_bounds(pictures: [&[Vec3]; 2], bounds: &[Vec3]) -> compare::Difference {
+    let [expected, actual] = pictures.map(|picture| {
+        picture
+            .iter()
+            .zip(bounds)
+            .map(|(p, b)| *p / *b)
+            .collect::<Vec<_>>()
+    });
+    compare::difference(&expected, &actual, |_| 1.0)
+}
+
+/// The dome alone: the twin reads the map that the device has drawn.
 #[test]
 fn radiance_agrees_in_a_float_target() {
     let format = wgpu::TextureFormat::Rgba16Float;
     let mut sky = gpu::sky(pack::default_pack(), format);
     let twin = Twin::new(pack::default_pack());
-    for (name, params, azimuth, elevation, seconds) in skies() {
-        let camera = camera(azimuth, elevation);
-        let expected = twin.render(&params, &camera, seconds);
-        let actual = rgb(&gpu::render(&mut sky, format, &params, &camera, seconds));
-        let difference = compare::difference(&expected, &actual, allowed(&params));
+    for case in skies() {
+        let (params, name) = (&case.params, &case.name);
+        let actual = gpu::rgb(&gpu::render(
+            &mut sky,
+            format,
+            params,
+            &case.camera,
+            case.seconds,
+        ));
+        let mut frame = twin.frame_without_map(params, &case.camera, case.seconds);
+        frame.map = gpu::read_map(&sky);
+        let expected = frame.render();
+        let bounds = allowed(&mut frame, FILTER_STEP, &expected);
+        let difference = in_bounds([&expected, &actual], &bounds);
         println!("{name}: {difference:?}");
-        if difference.worst > 1.0 || difference.mean > allowed_mean(&params) {
+        // Rounding is off by a quarter of a step on average.
+        if difference.worst > 1.0 || difference.mean > 0.25 {
             let picture = compare::save(&format!("twins_{name}"), &expected, &actual, SIZE);
             let index = difference.pixel;
             panic!(
@@ -140,52 +233,50 @@ fn radiance_agrees_in_a_float_target() {
     }
 }
 
+/// The whole path: the twin makes its own map.
 #[test]
 fn pictures_agree_in_8_bit_targets() {
-    for format in [
+    let formats = [
         wgpu::TextureFormat::Rgba8UnormSrgb,
         wgpu::TextureFormat::Rgba8Unorm,
-    ] {
-        let mut sky = gpu::sky(pack::default_pack(), format);
-        let twin = Twin::new(pack::default_pack());
-        for (name, params, azimuth, elevation, seconds) in skies() {
-            let (camera, params) = (
-                camera(azimuth, elevation),
-                SkyParams {
-                    dither: false,
-                    ..params
-                },
-            );
-            let radiance = twin.render(&params, &camera, seconds);
-            let expected: Vec<Vec3> = radiance
-                .iter()
-                .map(|&r| tonemap::to_bytes(r, params.exposure) / 255.0)
-                .collect();
-            let actual = rgb(&gpu::render(&mut sky, format, &params, &camera, seconds));
-            // What the radiance may differ by, through tone curve and encoding, and one step: half for rounding,
-            // the rest for the hardware's encoding (Vulkan allows it 0.6 in all).
-            let may = allowed(&params);
-            let bounds = radiance.iter().map(|&r| {
-                let more = Vec3::from(r.to_array().map(&may));
-                (tonemap::to_bytes(r + more, 1.0) - tonemap::to_bytes(r - more, 1.0)) / 2.0 / 255.0
-                    + 1.0 / 255.0
-            });
-            let scaled = |picture: &[Vec3]| {
-                picture
-                    .iter()
-                    .zip(bounds.clone())
-                    .map(|(p, b)| *p / b)
-                    .collect::<Vec<_>>()
-            };
-            let difference = compare::difference(&scaled(&expected), &scaled(&actual), |_| 1.0);
+    ];
+    let mut targets = formats.map(|format| (format, gpu::sky(pack::default_pack(), format)));
+    let twin = Twin::new(pack::default_pack());
+    for Case {
+        name,
+        params,
+        camera,
+        seconds,
+    } in skies()
+    {
+        let params = SkyParams {
+            dither: false,
+            ..params
+        };
+        let mut frame = twin.frame(&params, &camera, seconds);
+        let radiance = frame.render();
+        let off = off_with_own_map(&frame);
+        let may = allowed(&mut frame, off, &radiance);
+        let bytes = |radiance: Vec3| tonemap::to_bytes(radiance, params.exposure) / 255.0;
+        let expected: Vec<Vec3> = radiance.iter().map(|&r| bytes(r)).collect();
+        // What the radiance may differ by, through tone curve and encoding, and one step: half for rounding,
+        // the rest for the hardware's encoding (Vulkan allows it 0.6 in all).
+        let bound = |r: Vec3, may: Vec3| {
+            let (less, here, more) = (bytes(r - may), bytes(r), bytes(r + may));
+            (here - less).max(more - here) + 1.0 / 255.0
+        };
+        let bounds: Vec<Vec3> = radiance
+            .iter()
+            .zip(&may)
+            .map(|(&r, &may)| bound(r, may))
+            .collect();
+        for (format, sky) in &mut targets {
+            let actual = gpu::rgb(&gpu::render(sky, *format, &params, &camera, seconds));
+            let difference = in_bounds([&expected, &actual], &bounds);
             println!("{name} {format:?}: {difference:?}");
-            if difference.worst > 1.0 {
-                let picture = compare::save(
-                    &format!("twins_{format:?}_{name}"),
-                    &expected,
-                    &actual,
-                    SIZE,
-                );
+            if difference.worst > 1.0 || difference.mean > 0.25 {
+                let file = format!("twins_{format:?}_{name}");
+                let picture = compare::save(&file, &expected, &actual, SIZE);
                 panic!("{name}: {difference:?}; see {}", picture.display());
             }
         }
@@ -197,32 +288,37 @@ fn pictures_agree_in_8_bit_targets() {
 fn a_slightly_different_sky_is_told_apart() {
     let twin = Twin::new(pack::default_pack());
     let camera = camera(180.0, 40.0);
-    let usual = SkyParams::default();
-    let expected = twin.render(&usual, &camera, 0.0);
-    for other in [
-        SkyParams {
-            cover: usual.cover + 0.02,
-            ..usual
-        },
-        SkyParams {
-            density: usual.density + 0.05,
-            ..usual
-        },
-        SkyParams {
-            height: usual.height + 0.01,
-            ..usual
-        },
-        SkyParams {
-            time: usual.time + 0.02,
-            ..usual
-        },
-    ] {
-        let difference = compare::difference(
-            &expected,
-            &twin.render(&other, &camera, 0.0),
-            allowed(&usual),
-        );
-        let told = difference.worst > 1.0 || difference.mean > allowed_mean(&usual);
-        assert!(told, "{other:?} passes for {usual:?}: {difference:?}");
+    for method in Method::ALL {
+        let usual = SkyParams {
+            method,
+            ..SkyParams::default()
+        };
+        let mut frame = twin.frame(&usual, &camera, 0.0);
+        let expected = frame.render();
+        let bounds = allowed(&mut frame, FILTER_STEP, &expected);
+        for other in [
+            SkyParams {
+                cover: usual.cover + 0.02,
+                ..usual
+            },
+            // Density only shades clouds of this method a little more.
+            SkyParams {
+                density: usual.density + if method == Method::Fbm { 0.3 } else { 0.05 },
+                ..usual
+            },
+            SkyParams {
+                height: usual.height + 0.01,
+                ..usual
+            },
+            SkyParams {
+                time: usual.time + 0.02,
+                ..usual
+            },
+        ] {
+            let changed = twin.render(&other, &camera, 0.0);
+            let difference = in_bounds([&expected, &changed], &bounds);
+            let told = difference.worst > 1.0 || difference.mean > 0.25;
+            assert!(told, "{other:?} passes for {usual:?}: {difference:?}");
+        }
     }
 }

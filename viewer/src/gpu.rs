@@ -99,6 +99,13 @@ impl Gpu {
             .contains(wgpu::Features::TIMESTAMP_QUERY)
     }
 
+    /// Whether a moment between two passes can be told on the GPU too.
+    pub fn has_timestamps_between_passes(&self) -> bool {
+        self.device.features().contains(
+            wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS,
+        )
+    }
+
     /// A texture to draw into and to read back.
     ///
     /// # Errors
@@ -213,10 +220,12 @@ async fn choose_adapter(wanted: Option<&str>) -> Result<wgpu::Adapter, GpuError>
 
 async fn open_device(adapter: &wgpu::Adapter) -> Result<Gpu, GpuError> {
     let info = adapter.get_info();
+    let timestamps =
+        wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS;
     let name = format!("{} ({})", info.name, info.backend);
     let descriptor = wgpu::DeviceDescriptor {
         label: Some("welkin-view"),
-        required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+        required_features: adapter.features() & timestamps,
         required_limits: wgpu::Limits::downlevel_webgl2_defaults()
             .using_resolution(adapter.limits()),
         ..Default::default()

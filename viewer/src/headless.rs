@@ -24,8 +24,14 @@ pub struct View {
 pub fn render(gpu: &Gpu, pack: &Pack, target: Target, view: &View) -> Result<Frame, GpuError> {
     let texture = gpu.target(target, view.camera.viewport_px)?;
     let mut sky = new_sky(gpu, pack, target)?;
-    sky.prepare(&gpu.queue, &view.params, &view.camera, view.seconds);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    sky.prepare(
+        &gpu.queue,
+        &mut encoder,
+        &view.params,
+        &view.camera,
+        view.seconds,
+    );
     draw_pass(
         &mut encoder,
         &texture.create_view(&Default::default()),

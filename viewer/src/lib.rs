@@ -6,4 +6,5 @@ pub mod gpu;
 pub mod headless;
 pub mod reference;
 pub mod save;
+pub mod spread;
 pub mod timing;

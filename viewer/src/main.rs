@@ -9,15 +9,15 @@ mod render;
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::Parser;
-
 use cli::{Cli, Command};
 
 const NO_WINDOW: &str = "this version has no window; to look at a pack use \
      `welkin-view render PACK -o FRAME.png`, and `welkin-view render --help` for the sky's parameters";
 
 fn main() -> ExitCode {
-    let done = match Cli::parse().command {
+    // Wrong usage and `--help` end here, as clap has them end.
+    let cli = Cli::read(std::env::args_os()).unwrap_or_else(|e| e.exit());
+    let done = match cli.command {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
         None => return failed(NO_WINDOW, 2),

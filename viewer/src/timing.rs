@@ -1,19 +1,137 @@
-//! How long a render pass takes, and what is left of many such times.
+//! How long a frame takes: what it draws off screen, and its pass over the screen.
 
 use std::time::Instant;
 
+use crate::frame::Target;
 use crate::gpu::{Gpu, GpuError};
 use crate::headless::draw_pass;
 
-/// Times one render pass at a time.
+/// Times one frame at a time, between [`FrameTimer::begin`] and [`FrameTimer::end`].
 ///
-/// Every pass is submitted alone and waited for, so no pass overlaps another. Where the adapter has
-/// `TIMESTAMP_QUERY` the time is the GPU's own, from the beginning of the pass to its end; elsewhere it
-/// is the CPU's, from the submission to the end of the wait, which is longer.
+/// Every frame is submitted alone and waited for, so no frame overlaps another. Where the adapter has
+/// `TIMESTAMP_QUERY` the times are the GPU's own; elsewhere they are the CPU's, from a submission to the
+/// end of the wait, which is longer. What is uploaded before a frame is in neither of the GPU's times.
 #[derive(Debug)]
-pub struct PassTimer {
-    queries: Option<Queries>,
+pub struct FrameTimer {
+    clock: Clock,
 }
+
+/// The time of a frame, in milliseconds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameTime {
+    /// What was recorded before the pass: the passes off screen.
+    pub map_ms: f64,
+    /// The pass over the screen.
+    pub dome_ms: f64,
+}
+
+#[derive(Debug)]
+enum Clock {
+    /// Timestamps of the GPU, between passes too.
+    Encoder(Queries),
+    /// Timestamps of passes only: passes that draw nothing, into one pixel, mark what is between them.
+    Passes(Queries, wgpu::TextureView),
+    /// No timestamps: what is off screen is submitted by itself.
+    Cpu,
+}
+
+impl FrameTimer {
+    /// A timer for frames on this device, by the best clock that it has.
+    ///
+    /// # Errors
+    /// [`GpuError::FrameSize`], on a device that cannot draw into one pixel.
+    pub fn new(gpu: &Gpu) -> Result<FrameTimer, GpuError> {
+        let clock = if gpu.has_timestamps_between_passes() {
+            Clock::Encoder(Queries::new(gpu))
+        } else if gpu.has_timestamps() {
+            Clock::Passes(Queries::new(gpu), marker(gpu)?)
+        } else {
+            Clock::Cpu
+        };
+        Ok(FrameTimer { clock })
+    }
+
+    /// Begins a frame: what is recorded into this encoder is its off-screen part.
+    pub fn begin(&self, gpu: &Gpu) -> wgpu::CommandEncoder {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        match &self.clock {
+            Clock::Encoder(queries) => encoder.write_timestamp(&queries.set, MAP_BEGINS),
+            Clock::Passes(queries, marker) => {
+                let writes = queries.writes(None, Some(MAP_BEGINS));
+                draw_pass(&mut encoder, marker, Some(writes), |_| ());
+            }
+            Clock::Cpu => {}
+        }
+        encoder
+    }
+
+    /// Ends a frame by one pass into `view`, waits for it and tells its time.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`].
+    pub fn end(
+        &self,
+        gpu: &Gpu,
+        mut encoder: wgpu::CommandEncoder,
+        view: &wgpu::TextureView,
+        draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
+    ) -> Result<FrameTime, GpuError> {
+        let queries = match &self.clock {
+            Clock::Encoder(queries) => {
+                encoder.write_timestamp(&queries.set, MAP_ENDS);
+                queries
+            }
+            Clock::Passes(queries, marker) => {
+                let writes = queries.writes(Some(MAP_ENDS), None);
+                draw_pass(&mut encoder, marker, Some(writes), |_| ());
+                queries
+            }
+            Clock::Cpu => return cpu_time(gpu, encoder, view, draw),
+        };
+        let writes = queries.writes(Some(DOME_BEGINS), Some(DOME_ENDS));
+        draw_pass(&mut encoder, view, Some(writes), draw);
+        queries.resolve(&mut encoder);
+        gpu.queue.submit([encoder.finish()]);
+        queries.read(gpu)
+    }
+}
+
+/// The two parts of a frame, submitted one after the other.
+fn cpu_time(
+    gpu: &Gpu,
+    map: wgpu::CommandEncoder,
+    view: &wgpu::TextureView,
+    draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
+) -> Result<FrameTime, GpuError> {
+    let mut dome = gpu.device.create_command_encoder(&Default::default());
+    draw_pass(&mut dome, view, None, draw);
+    let submitted = |encoder: wgpu::CommandEncoder| -> Result<f64, GpuError> {
+        let commands = encoder.finish();
+        let start = Instant::now();
+        gpu.queue.submit([commands]);
+        gpu.wait()?;
+        Ok(start.elapsed().as_secs_f64() * 1e3)
+    };
+    Ok(FrameTime {
+        map_ms: submitted(map)?,
+        dome_ms: submitted(dome)?,
+    })
+}
+
+/// What passes that only mark a moment draw into.
+fn marker(gpu: &Gpu) -> Result<wgpu::TextureView, GpuError> {
+    let pixel = gpu.target(Target::Srgb8, [1, 1])?;
+    Ok(pixel.create_view(&Default::default()))
+}
+
+/// The timestamps of a frame, in their order.
+const MAP_BEGINS: u32 = 0;
+const MAP_ENDS: u32 = 1;
+const DOME_BEGINS: u32 = 2;
+const DOME_ENDS: u32 = 3;
+const QUERIES: u32 = 4;
+/// Timestamps have 64 bits.
+const QUERY_BYTES: u64 = 8 * QUERIES as u64;
 
 #[derive(Debug)]
 struct Queries {
@@ -21,48 +139,6 @@ struct Queries {
     resolved: wgpu::Buffer,
     readable: wgpu::Buffer,
     tick_ns: f64,
-}
-
-/// Two timestamps of 64 bits.
-const QUERY_BYTES: u64 = 16;
-
-impl PassTimer {
-    /// A timer for passes on this device.
-    pub fn new(gpu: &Gpu) -> PassTimer {
-        PassTimer {
-            queries: gpu.has_timestamps().then(|| Queries::new(gpu)),
-        }
-    }
-
-    /// Draws one pass into `view` and returns its time in milliseconds.
-    ///
-    /// # Errors
-    /// [`GpuError::Device`].
-    pub fn time_ms(
-        &self,
-        gpu: &Gpu,
-        view: &wgpu::TextureView,
-        draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
-    ) -> Result<f64, GpuError> {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        draw_pass(
-            &mut encoder,
-            view,
-            self.queries.as_ref().map(Queries::writes),
-            draw,
-        );
-        if let Some(queries) = &self.queries {
-            queries.resolve(&mut encoder);
-        }
-        let commands = encoder.finish();
-        let start = Instant::now();
-        gpu.queue.submit([commands]);
-        gpu.wait()?;
-        let wall_ms = start.elapsed().as_secs_f64() * 1e3;
-        self.queries
-            .as_ref()
-            .map_or(Ok(wall_ms), |queries| queries.read_ms(gpu))
-    }
 }
 
 impl Queries {
@@ -79,7 +155,7 @@ impl Queries {
             set: gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("timestamps"),
                 ty: wgpu::QueryType::Timestamp,
-                count: 2,
+                count: QUERIES,
             }),
             resolved: buffer(wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC),
             readable: buffer(wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ),
@@ -87,95 +163,104 @@ impl Queries {
         }
     }
 
-    fn writes(&self) -> wgpu::RenderPassTimestampWrites<'_> {
+    fn writes(
+        &self,
+        beginning: Option<u32>,
+        end: Option<u32>,
+    ) -> wgpu::RenderPassTimestampWrites<'_> {
         wgpu::RenderPassTimestampWrites {
             query_set: &self.set,
-            beginning_of_pass_write_index: Some(0),
-            end_of_pass_write_index: Some(1),
+            beginning_of_pass_write_index: beginning,
+            end_of_pass_write_index: end,
         }
     }
 
     fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
-        encoder.resolve_query_set(&self.set, 0..2, &self.resolved, 0);
+        encoder.resolve_query_set(&self.set, 0..QUERIES, &self.resolved, 0);
         encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, QUERY_BYTES);
     }
 
-    fn read_ms(&self, gpu: &Gpu) -> Result<f64, GpuError> {
+    fn read(&self, gpu: &Gpu) -> Result<FrameTime, GpuError> {
         let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&gpu.read(&self.readable)?);
-        Ok(ticks[1].saturating_sub(ticks[0]) as f64 * self.tick_ns / 1e6)
-    }
-}
-
-/// The middle of many times, and how far they spread.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spread {
-    /// Half of the times are below.
-    pub median: f64,
-    /// One in ten is below.
-    pub p10: f64,
-    /// One in ten is above.
-    pub p90: f64,
-}
-
-impl Spread {
-    /// Of times in any order and any unit. Of no times at all it is not a number.
-    ///
-    /// Between two times it is interpolated (R. J. Hyndman, Y. Fan, "Sample Quantiles in Statistical
-    /// Packages", The American Statistician 50(4), 1996, definition 7).
-    pub fn of(times: &[f64]) -> Spread {
-        let mut sorted = times.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        if sorted.is_empty() {
-            return Spread {
-                median: f64::NAN,
-                p10: f64::NAN,
-                p90: f64::NAN,
-            };
-        }
-        let quantile = |q: f64| {
-            let at = q * (sorted.len() - 1) as f64;
-            let (low, high) = (sorted[at.floor() as usize], sorted[at.ceil() as usize]);
-            low + (high - low) * at.fract()
+        let ms = |begins: u32, ends: u32| {
+            ticks[ends as usize].saturating_sub(ticks[begins as usize]) as f64 * self.tick_ns / 1e6
         };
-        Spread {
-            median: quantile(0.5),
-            p10: quantile(0.1),
-            p90: quantile(0.9),
-        }
+        Ok(FrameTime {
+            map_ms: ms(MAP_BEGINS, MAP_ENDS),
+            dome_ms: ms(DOME_BEGINS, DOME_ENDS),
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Spread;
+    use super::*;
+    use crate::reference::full_screen_pipeline;
 
-    #[test]
-    fn quantiles_of_a_ramp_lie_on_the_ramp() {
-        let times: Vec<f64> = (0..=100).rev().map(f64::from).collect();
-        assert_eq!(
-            Spread::of(&times),
-            Spread {
-                median: 50.0,
-                p10: 10.0,
-                p90: 90.0
+    /// Work that takes its time: a chain of a thousand sines a pixel.
+    const SLOW: &str = "
+        @vertex fn corner(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
+            return vec4f(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+        }
+        @fragment fn slow(@builtin(position) p: vec4f) -> @location(0) vec4f {
+            var v = p.x;
+            for (var i = 0; i < 1000; i++) { v = sin(v + p.y); }
+            return vec4f(v);
+        }";
+
+    /// Least times of three frames with the slow pass off screen, on screen, or on neither: the least, since
+    /// a busy machine lengthens single ones.
+    fn time(gpu: &Gpu, timer: &FrameTimer, [map, dome]: [bool; 2]) -> FrameTime {
+        let format = Target::Srgb8.texture_format();
+        let slow = full_screen_pipeline(gpu, SLOW, format, "slow");
+        let target = gpu.target(Target::Srgb8, [256, 256]).unwrap();
+        let view = target.create_view(&Default::default());
+        let draw = |wanted: bool, pass: &mut wgpu::RenderPass<'_>| {
+            if wanted {
+                pass.set_pipeline(&slow);
+                pass.draw(0..3, 0..1);
             }
-        );
+        };
+        let frames = [0; 3].map(|_| {
+            let mut encoder = timer.begin(gpu);
+            draw_pass(&mut encoder, &view, None, |pass| draw(map, pass));
+            timer
+                .end(gpu, encoder, &view, |pass| draw(dome, pass))
+                .unwrap()
+        });
+        let least =
+            |part: fn(&FrameTime) -> f64| frames.iter().map(part).fold(f64::INFINITY, f64::min);
+        FrameTime {
+            map_ms: least(|t| t.map_ms),
+            dome_ms: least(|t| t.dome_ms),
+        }
     }
 
     #[test]
-    fn one_time_has_no_spread() {
-        assert_eq!(
-            Spread::of(&[2.5]),
-            Spread {
-                median: 2.5,
-                p10: 2.5,
-                p90: 2.5
-            }
-        );
+    fn timestamps_give_each_part_of_a_frame_its_own_time() {
+        let gpu = Gpu::open().unwrap();
+        let mut clocks = Vec::new();
+        if gpu.has_timestamps() {
+            clocks.push(Clock::Passes(Queries::new(&gpu), marker(&gpu).unwrap()));
+        }
+        if gpu.has_timestamps_between_passes() {
+            clocks.push(Clock::Encoder(Queries::new(&gpu)));
+        }
+        for clock in clocks {
+            let timer = FrameTimer { clock };
+            let off_screen = time(&gpu, &timer, [true, false]);
+            let on_screen = time(&gpu, &timer, [false, true]);
+            // 65 million sines against one clear of the target: ten times as long on any device.
+            let told = format!("{:?}: {off_screen:?} {on_screen:?}", timer.clock);
+            assert!(off_screen.map_ms > 2.0 * off_screen.dome_ms, "{told}");
+            assert!(on_screen.dome_ms > 2.0 * on_screen.map_ms, "{told}");
+        }
     }
 
     #[test]
-    fn an_even_count_has_its_median_between_the_middle_two() {
-        assert_eq!(Spread::of(&[4.0, 1.0]).median, 2.5);
+    fn without_timestamps_the_wall_clock_serves() {
+        let gpu = Gpu::open().unwrap();
+        let time = time(&gpu, &FrameTimer { clock: Clock::Cpu }, [true, true]);
+        assert!(time.map_ms > 0.0 && time.dome_ms > 0.0, "{time:?}");
     }
 }

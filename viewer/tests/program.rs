@@ -3,67 +3,13 @@
 // The lint's exception for tests does not reach their helpers.
 #![allow(clippy::unwrap_used)]
 
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-use std::sync::OnceLock;
+mod common;
+
+use std::path::Path;
 
 use exr::prelude::read_first_rgba_layer_from_file;
-use serde_json::Value;
-use welkin_baker::Recipe;
-use welkin_pack::Overwrite;
 
-/// Small textures: what is tested here is the program, not the beauty of its pictures.
-const RECIPE: &str = "[clouds]\nsize = 64\n[stars]\nsize = 64\ncount = 50\n[galaxy]\nsize = 32\n";
-
-/// A pack, baked once for all tests.
-fn pack() -> &'static Path {
-    static PACK: OnceLock<PathBuf> = OnceLock::new();
-    PACK.get_or_init(|| {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("welkin-view-pack");
-        let resolved = Recipe::parse("small", RECIPE)
-            .and_then(|r| r.resolve(None))
-            .unwrap();
-        let pack = welkin_baker::bake(&resolved, None, &|_| ControlFlow::Continue(())).unwrap();
-        pack.save(&folder, Overwrite::Replace, &|| false).unwrap();
-        folder
-    })
-}
-
-fn view(args: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_welkin-view"));
-    command.args(args);
-    command
-}
-
-fn run(mut command: Command) -> Output {
-    command.output().expect("the program starts")
-}
-
-fn failed(output: &Output, code: i32, parts: &[&str]) {
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(code), "{stderr}");
-    assert!(
-        stderr.contains("error: ") && !stderr.contains("panicked"),
-        "{stderr}"
-    );
-    for part in parts {
-        assert!(stderr.contains(part), "no {part:?} in {stderr}");
-    }
-}
-
-fn render(file: &Path, args: &[&str]) -> Vec<u8> {
-    let mut command = view(&["render", "--size", "70x40"]);
-    command.arg(pack()).arg("-o").arg(file).args(args);
-    let output = run(command);
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    assert!(output.stdout.is_empty());
-    std::fs::read(file).unwrap()
-}
+use common::{failed, pack, render, run, view};
 
 #[test]
 fn a_frame_is_the_same_every_time_and_follows_its_options() {
@@ -92,7 +38,7 @@ fn a_frame_is_the_same_every_time_and_follows_its_options() {
     for option in options {
         assert_ne!(render(&file, &option), noon, "{option:?}");
     }
-    // The last two say nothing alone: red needs a low sun, and speed needs time.
+    // These two say nothing alone: red needs a low sun, and speed needs time.
     let evening = [
         "--time",
         "0.74",
@@ -130,50 +76,6 @@ fn an_exr_holds_finite_radiance_of_the_same_view() {
     assert!(pixels.iter().flatten().all(|v| v.is_finite() && *v >= 0.0));
     // Radiance is not squeezed into 0..1: a day's sky and its sun go beyond, or come well below white.
     assert!(pixels.iter().any(|p| p[2] > 0.05));
-}
-
-#[test]
-fn the_benchmark_tells_every_pass_and_its_ratio() {
-    let mut command = view(&["bench", "--frames", "3", "--size", "64x48", "--json"]);
-    command.arg(pack());
-    let output = run(command);
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(report["size"], serde_json::json!([64, 48]));
-    assert_eq!(report["frames"], 3);
-    let passes = report["passes"].as_array().unwrap();
-    let names: Vec<&str> = passes.iter().map(|p| p["name"].as_str().unwrap()).collect();
-    assert_eq!(
-        names,
-        [
-            "sky, noon",
-            "sky, sunset",
-            "sky, night",
-            "one sample",
-            "four samples"
-        ]
-    );
-    for pass in passes {
-        let [p10, median, p90, ratio] =
-            ["p10_ms", "median_ms", "p90_ms", "ratio"].map(|key| pass[key].as_f64().unwrap());
-        assert!(
-            0.0 < p10 && p10 <= median && median <= p90 && ratio > 0.0,
-            "{pass}"
-        );
-    }
-    assert_eq!(passes[4]["ratio"], 1.0);
-
-    let mut command = view(&["bench", "--frames", "1", "--size", "8x8"]);
-    command.arg(pack());
-    let table = String::from_utf8(run(command).stdout).unwrap();
-    assert!(
-        names.iter().all(|name| table.contains(name)) && table.contains("1.00x"),
-        "{table}"
-    );
 }
 
 #[test]

@@ -112,7 +112,9 @@ fn with_progress<T>(work: impl FnOnce(&(dyn Fn(Progress) -> ControlFlow<()> + Sy
 fn add_stored(folder: &Folder, pack: &Pack) -> Result<()> {
     for role in Role::ALL {
         if let Some(texture) = pack.texture(role) {
-            side::add(folder, role, &texture.image(0, 0), Kind::Png)?;
+            for layer in 0..texture.layers {
+                side::add(folder, role, layer, &texture.image(0, layer), Kind::Png)?;
+            }
         }
     }
     Ok(())
@@ -121,7 +123,9 @@ fn add_stored(folder: &Folder, pack: &Pack) -> Result<()> {
 fn add_linear(folder: &Folder, resolved: &Resolved, base: Option<&Path>) -> Result<()> {
     let sources = with_progress(|on_progress| welkin_baker::sources(resolved, base, on_progress))?;
     for source in &sources {
-        side::add(folder, source.role, &source.image, Kind::Exr)?;
+        for (layer, image) in (0..).zip(&source.images) {
+            side::add(folder, source.role, layer, image, Kind::Exr)?;
+        }
     }
     Ok(())
 }

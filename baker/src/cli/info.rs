@@ -11,8 +11,7 @@ use serde_json::json;
 use welkin_pack::manifest::{Channel, TextureEntry};
 use welkin_pack::{Manifest, Pack};
 
-use super::PackArgs;
-use super::output;
+use super::{PackArgs, output, picture};
 
 pub fn run(args: &PackArgs) -> Result<ExitCode> {
     let pack = Pack::open(&args.pack)?;
@@ -63,20 +62,9 @@ fn table(manifest: &Manifest) -> Result<String> {
 }
 
 fn texture(text: &mut String, entry: &TextureEntry) -> std::fmt::Result {
-    let TextureEntry {
-        width,
-        height,
-        levels,
-        file_bytes,
-        ..
-    } = entry;
-    let (role, format) = (entry.role.name(), entry.format.name());
-    let plural = if *levels == 1 { "level" } else { "levels" };
-    writeln!(
-        text,
-        "\n{role}  {width}x{height} {format}, {levels} {plural}, {file_bytes} bytes in {}",
-        entry.file
-    )?;
+    let (role, size) = (entry.role.name(), picture::size_of(entry));
+    let (bytes, file) = (entry.file_bytes, &entry.file);
+    writeln!(text, "\n{role}  {size}, {bytes} bytes in {file}")?;
     writeln!(text, "  texels {}", entry.texels_blake3)?;
     entry.channels.iter().try_for_each(|c| channel(text, c))
 }

@@ -39,7 +39,7 @@ enum Command {
     Info(PackArgs),
     /// Draw every channel of every texture on one labelled sheet
     Preview(PreviewArgs),
-    /// Write one grey image a channel: ROLE.CHANNEL.png, or .exr for floats
+    /// Write one grey image a channel: ROLE.CHANNEL.png or ROLE.LAYER.CHANNEL.png, .exr for floats
     Unpack(UnpackArgs),
     /// Make a photograph into a seamless cloud channel
     Photo(PhotoArgs),

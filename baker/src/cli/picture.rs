@@ -1,4 +1,4 @@
-//! Pixels to the bytes of picture files.
+//! Pixels to the bytes of picture files, and a texture in words.
 
 use std::io::Cursor;
 
@@ -9,6 +9,8 @@ use exr::prelude::{
 };
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
+use welkin_pack::Shape;
+use welkin_pack::manifest::TextureEntry;
 
 /// 8-bit PNG of one (grey) or three (sRGB) channels.
 pub fn png(width: u32, height: u32, colour: ExtendedColorType, pixels: &[u8]) -> Result<Vec<u8>> {
@@ -45,4 +47,17 @@ pub fn grey_exr(width: u32, height: u32, values: Vec<f32>) -> Result<Vec<u8>> {
             anyhow!("a picture of {width}x{height} cannot be encoded: {e}; choose smaller textures")
         })?;
     Ok(bytes.into_inner())
+}
+
+/// A texture's size in words, such as `256x256 rgba8unorm, 4 layers, 1 level`.
+pub fn size_of(entry: &TextureEntry) -> String {
+    let counted = |n: u32, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
+    let layers = match entry.shape {
+        Shape::D2 => String::new(),
+        Shape::Array => format!(", {}", counted(entry.layers, "layer")),
+        Shape::Cube => format!(", {}", counted(entry.layers, "face")),
+    };
+    let (width, height, format) = (entry.width, entry.height, entry.format.name());
+    let levels = counted(entry.levels, "level");
+    format!("{width}x{height} {format}{layers}, {levels}")
 }

@@ -6,13 +6,13 @@ use image::{ExtendedColorType, GrayImage, Rgb, RgbImage};
 use welkin_pack::manifest::{Channel, TextureEntry};
 use welkin_pack::role::Filter;
 use welkin_pack::texture::unorm8;
-use welkin_pack::{Image, Manifest, Pack, Role};
+use welkin_pack::{Image, Manifest, Pack, Role, Texture};
 
 use super::PreviewArgs;
 use super::sheet::{self, PANEL, Panel, Section};
 use super::{interrupt, picture, whole};
 
-/// Textures that are read texel by texel are shown in part, each texel this many pixels large.
+/// Textures that are read texel by texel are shown in part, each texel at least this many pixels large.
 const TEXEL_PIXELS: u32 = 2;
 
 /// Brings the brightest sky near to white; the sheet needs no more than that the hues are right.
@@ -24,7 +24,7 @@ pub fn run(args: &PreviewArgs) -> Result<()> {
     let sections: Vec<Section> = manifest
         .textures
         .iter()
-        .filter_map(|entry| section(&pack, entry))
+        .flat_map(|entry| sections(&pack, entry))
         .collect();
     interrupt::stop_if_requested()?;
     let sheet = sheet::lay_out(
@@ -56,23 +56,77 @@ fn summary(manifest: &Manifest) -> String {
     )
 }
 
-fn section(pack: &Pack, entry: &TextureEntry) -> Option<Section> {
-    let image = pack.texture(entry.role)?.image(0, 0);
-    let mut panels: Vec<Panel> = entry
-        .channels
-        .iter()
-        .enumerate()
-        .map(|(i, channel)| channel_panel(entry, &image, i, channel))
+fn sections(pack: &Pack, entry: &TextureEntry) -> Vec<Section> {
+    let Some(texture) = pack.texture(entry.role) else {
+        return Vec::new();
+    };
+    if entry.role == Role::Skybox {
+        return skybox(texture, entry);
+    }
+    (0..texture.layers)
+        .map(|layer| section(&texture.image(0, layer), entry, layer))
+        .collect()
+}
+
+fn section(image: &Image, entry: &TextureEntry, layer: u32) -> Section {
+    let channels = entry.channels.iter().enumerate();
+    let mut panels: Vec<Panel> = channels
+        .map(|(i, channel)| channel_panel(entry, image, i, channel))
         .collect();
     if entry.role == Role::Sky {
-        panels.insert(0, sky_panel(&image));
+        panels.insert(0, sky_panel(image));
     }
-    let plural = if entry.levels == 1 { "level" } else { "levels" };
-    let (width, height, format) = (entry.width, entry.height, entry.format.name());
-    Some(Section {
-        title: entry.role.name().to_string(),
-        note: format!("{width}x{height} {format}, {} {plural}", entry.levels),
+    let layer = entry.shape.layer_name(layer);
+    let layer = layer.map_or(String::new(), |name| format!(" {name}"));
+    Section {
+        title: format!("{}{layer}", entry.role.name()),
+        note: picture::size_of(entry),
         panels,
+    }
+}
+
+/// The faces in colour, and what they cover.
+fn skybox(texture: &Texture, entry: &TextureEntry) -> Vec<Section> {
+    let faces: Vec<(String, Image)> = (0..texture.layers)
+        .map(|layer| {
+            let name = texture.shape.layer_name(layer).unwrap_or_default();
+            (name, texture.image(0, layer))
+        })
+        .collect();
+    let section = |channels: &str, panel: &dyn Fn(&Image) -> RgbImage| Section {
+        title: format!("{} {channels}", entry.role.name()),
+        note: picture::size_of(entry),
+        panels: faces
+            .iter()
+            .map(|(name, image)| Panel {
+                title: name.clone(),
+                note: channels.to_string(),
+                width: PANEL,
+                height: PANEL,
+                pixels: imageops::resize(&panel(image), PANEL, PANEL, FilterType::Triangle)
+                    .pixels()
+                    .map(|p| p.0)
+                    .collect(),
+            })
+            .collect(),
+    };
+    vec![
+        section("colour", &|image| {
+            in_colour(image, |x, y| image.texel(x, y))
+        }),
+        section("cover", &|image| {
+            RgbImage::from_fn(image.width, image.height, |x, y| {
+                Rgb([unorm8(image.texel(x, y)[3]); 3])
+            })
+        }),
+    ]
+}
+
+/// Radiance as a colour picture; `texel` says where a pixel's channels are.
+fn in_colour<'a>(image: &Image, texel: impl Fn(u32, u32) -> &'a [f32]) -> RgbImage {
+    RgbImage::from_fn(image.width, image.height, |x, y| {
+        let texel = texel(x, y);
+        Rgb([texel[0], texel[1], texel[2]].map(display))
     })
 }
 
@@ -100,7 +154,7 @@ fn channel_panel(entry: &TextureEntry, image: &Image, index: usize, channel: &Ch
         note: if is_star_light {
             format!("cube root{part}")
         } else {
-            statistics(channel) + &part
+            statistics(image, index) + &part
         },
         width: shown.width(),
         height: shown.height(),
@@ -108,8 +162,10 @@ fn channel_panel(entry: &TextureEntry, image: &Image, index: usize, channel: &Ch
     }
 }
 
-fn statistics(channel: &Channel) -> String {
-    format!("mean {:.3} spread {:.3}", channel.mean, channel.spread)
+/// Of this layer: the manifest's figures are of all layers together.
+fn statistics(image: &Image, channel: usize) -> String {
+    let (mean, spread) = image.mean_and_spread(channel);
+    format!("mean {mean:.3} spread {spread:.3}")
 }
 
 /// Resized so that the longer side is a panel's.
@@ -121,24 +177,18 @@ fn fit(grey: &GrayImage) -> GrayImage {
 
 /// The upper left corner with every texel as a square, so that single texels can be seen.
 fn magnified_corner(grey: &GrayImage) -> (GrayImage, String) {
-    let [width, height] = [grey.width(), grey.height()].map(|side| side.min(PANEL / TEXEL_PIXELS));
+    let longer = grey.width().max(grey.height()).max(1);
+    let pixels = (PANEL / longer).max(TEXEL_PIXELS);
+    let [width, height] = [grey.width(), grey.height()].map(|side| side.min(PANEL / pixels));
     let corner = imageops::crop_imm(grey, 0, 0, width, height).to_image();
-    let shown = imageops::resize(
-        &corner,
-        width * TEXEL_PIXELS,
-        height * TEXEL_PIXELS,
-        FilterType::Nearest,
-    );
+    let [shown_width, shown_height] = [width, height].map(|side| side * pixels);
+    let shown = imageops::resize(&corner, shown_width, shown_height, FilterType::Nearest);
     (shown, format!(" ({width}x{height})"))
 }
 
 /// The sky's radiance as a colour picture: midnight to midnight from left to right, zenith on top.
 fn sky_panel(image: &Image) -> Panel {
-    let colour = |x: u32, y: u32| {
-        let texel = image.texel(x, image.height - 1 - y);
-        Rgb([texel[0], texel[1], texel[2]].map(display))
-    };
-    let picture = RgbImage::from_fn(image.width, image.height, colour);
+    let picture = in_colour(image, |x, y| image.texel(x, image.height - 1 - y));
     let [width, height] = [PANEL, (PANEL * image.height / image.width).clamp(1, PANEL)];
     let shown = imageops::resize(&picture, width, height, FilterType::Triangle);
     Panel {

@@ -1,4 +1,5 @@
-//! One grey image a channel, as files `ROLE.CHANNEL.png` and `ROLE.CHANNEL.exr`.
+//! One grey image a channel, as files `ROLE.CHANNEL.png` and `ROLE.CHANNEL.exr`; in arrays and cubes
+//! `ROLE.LAYER.CHANNEL.png`, where LAYER is a number from 1 or the name of a face.
 
 use std::path::Path;
 
@@ -28,8 +29,8 @@ impl Kind {
     }
 }
 
-/// Adds every channel of a role's image to a folder.
-pub fn add(folder: &Folder, role: Role, image: &Image, kind: Kind) -> Result<()> {
+/// Adds every channel of a layer of a role's texture to a folder.
+pub fn add(folder: &Folder, role: Role, layer: u32, image: &Image, kind: Kind) -> Result<()> {
     for (index, channel) in role.spec().channels.iter().enumerate() {
         let values = image.channel(index);
         let bytes = match kind {
@@ -39,12 +40,15 @@ pub fn add(folder: &Folder, role: Role, image: &Image, kind: Kind) -> Result<()>
             }
             Kind::Exr => picture::grey_exr(image.width, image.height, values.collect())?,
         };
-        folder.add(
-            &format!("{}.{}.{}", role.name(), channel.name, kind.extension()),
-            &bytes,
-        )?;
+        folder.add(&file_name(role, layer, channel.name, kind), &bytes)?;
     }
     Ok(())
+}
+
+fn file_name(role: Role, layer: u32, channel: &str, kind: Kind) -> String {
+    let layer = role.spec().shape.layer_name(layer);
+    let layer = layer.map_or(String::new(), |name| format!("{name}."));
+    format!("{}.{layer}{channel}.{}", role.name(), kind.extension())
 }
 
 /// Whether a file has a name that [`add`] gives.
@@ -53,10 +57,10 @@ pub fn is_ours(path: &Path) -> bool {
         return false;
     };
     let ours = |role: Role, kind: Kind| {
-        let channels = role.spec().channels.iter();
-        channels
-            .map(|c| c.name)
-            .any(|c| name == format!("{}.{c}.{}", role.name(), kind.extension()))
+        (0..role.spec().layers[1]).any(|layer| {
+            let mut channels = role.spec().channels.iter();
+            channels.any(|c| name == file_name(role, layer, c.name, kind))
+        })
     };
     path.is_file()
         && Role::ALL

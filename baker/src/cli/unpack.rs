@@ -1,4 +1,4 @@
-//! `welkin unpack`: one grey image a channel, from level 0 of every texture.
+//! `welkin unpack`: one grey image a channel and layer, from level 0 of every texture.
 
 use anyhow::Result;
 use welkin_pack::{Format, Pack, Role};
@@ -18,7 +18,9 @@ pub fn run(args: &UnpackArgs) -> Result<()> {
             Format::Rgba16Float => Kind::Exr,
             Format::R8Unorm | Format::Rg8Unorm | Format::Rgba8Unorm => Kind::Png,
         };
-        side::add(&folder, role, &texture.image(0, 0), kind)?;
+        for layer in 0..texture.layers {
+            side::add(&folder, role, layer, &texture.image(0, layer), kind)?;
+        }
     }
     folder.publish()
 }

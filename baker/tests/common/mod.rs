@@ -17,7 +17,12 @@ pub fn bake(text: &str, seed: Option<u64>) -> (Resolved, Vec<Source>) {
     (resolved, sources)
 }
 
-/// The image of a role.
+/// The images of a role, one a layer.
+pub fn images(sources: &[Source], role: Role) -> &[Image] {
+    &sources.iter().find(|s| s.role == role).unwrap().images
+}
+
+/// The only or first image of a role.
 pub fn image(sources: &[Source], role: Role) -> &Image {
-    &sources.iter().find(|s| s.role == role).unwrap().image
+    &images(sources, role)[0]
 }

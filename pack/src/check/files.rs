@@ -19,7 +19,7 @@ pub(super) fn check(report: &mut Report, folder: &Path) -> Result<Vec<(Role, Tex
     let sound = report
         .verify(MANIFEST, MANIFEST_FILE, manifest.verify(&file))
         .is_some();
-    for role in Role::ALL {
+    for role in Role::ALL.into_iter().filter(|role| !role.is_optional()) {
         let found = f64::from(u8::from(manifest.texture(role).is_some()));
         report.measure(ROLES, role.name(), found, Bound::AtLeast(1.0));
     }
@@ -83,13 +83,8 @@ fn skip(report: &mut Report, entry: &TextureEntry, rules: &[super::Rule], why: &
     }
 }
 
-/// What the role asks beyond what the manifest says: sides that are powers of two, and all levels or one.
+/// What the role asks beyond what the manifest says: all levels or one.
 fn verify_role(file: &str, role: Role, texture: &Texture) -> Result<(), PackError> {
-    for (key, side) in [("width", texture.width), ("height", texture.height)] {
-        if !side.is_power_of_two() || side < 4 {
-            return Err(PackError::value(file, key, side, "a power of two from 4"));
-        }
-    }
     let levels = if role.spec().mips {
         Texture::full_level_count(texture.width, texture.height)
     } else {
@@ -109,7 +104,7 @@ fn verify_role(file: &str, role: Role, texture: &Texture) -> Result<(), PackErro
 /// The manifest's figures were computed from the same bytes in the same order: only their decimal
 /// digits may differ.
 fn check_statistics(report: &mut Report, entry: &TextureEntry, texture: &Texture) {
-    let image = texture.image(0, 0);
+    let image = texture.stacked(0);
     for (index, channel) in entry.channels.iter().enumerate() {
         let (mean, spread) = image.mean_and_spread(index);
         let apart = (mean - channel.mean)

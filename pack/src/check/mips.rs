@@ -3,37 +3,45 @@
 use super::report::{Bound, Report};
 use super::rule::MIP_MEAN;
 use super::subject;
-use crate::{Format, Role, Texture};
+use crate::{Format, Image, Role, Texture};
 
 /// Checks every channel that is averaged over area. Star levels and the sunset gradient have rules of
 /// their own.
 pub(super) fn check(report: &mut Report, role: Role, texture: &Texture) {
-    let base = texture.image(0, 0);
-    let images: Vec<_> = (1..texture.levels.len())
-        .map(|level| texture.image(level, 0))
-        .collect();
-    if images.is_empty() || role == Role::Stars {
+    if texture.levels.len() == 1 || role == Role::Stars {
         return;
     }
+    let layers: Vec<Vec<_>> = (0..texture.layers)
+        .map(|layer| (0..texture.levels.len()).map(move |level| texture.image(level, layer)))
+        .map(Iterator::collect)
+        .collect();
     for (index, channel) in role.spec().channels.iter().enumerate() {
         if channel.name == "gradient" {
             continue;
         }
-        let mean = base.mean_and_spread(index).0;
-        let worst = images
+        let worst = layers
             .iter()
-            .map(|image| (image.mean_and_spread(index).0 - mean).abs())
+            .map(|levels| difference(texture.format, levels, index))
             .fold(0.0, f32::max);
-        // Every texel of both levels was rounded by half a step at most.
-        let step = match texture.format {
-            Format::Rgba16Float => mean.abs() / 512.0,
-            _ => 1.0 / 255.0,
-        };
         report.measure(
             MIP_MEAN,
             &subject(role, index),
             f64::from(worst),
-            Bound::AtMost(f64::from(step)),
+            Bound::AtMost(1.0),
         );
     }
+}
+
+/// The largest difference of a level's mean from that of level 0, over what rounding explains.
+fn difference(format: Format, levels: &[Image], channel: usize) -> f32 {
+    let mut means = levels.iter().map(|image| image.mean_and_spread(channel).0);
+    let base = means.next().unwrap_or_default();
+    // Every texel of both levels was rounded by half a step at most; halves have steps of 2^-24 near 0.
+    let step = match format {
+        Format::Rgba16Float => base.abs() / 512.0 + 1.0 / 16_777_216.0,
+        _ => 1.0 / 255.0,
+    };
+    means
+        .map(|mean| (mean - base).abs() / step)
+        .fold(0.0, f32::max)
 }

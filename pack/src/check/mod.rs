@@ -4,13 +4,19 @@
 //! on a folder, go on after a broken file, and report every rule with its figure. Rules that lean on
 //! statistics say how often they would blame a sound pack: never more than once in a million.
 
+mod chance;
 mod clouds;
+mod fbm;
 mod files;
+mod flares;
 mod galaxy;
 mod mips;
+mod octaves;
 mod report;
 mod rule;
 mod sky;
+mod skybox;
+mod spectrum;
 mod stars;
 mod sun;
 #[cfg(test)]
@@ -49,6 +55,10 @@ fn check_texture(report: &mut Report, role: Role, texture: &Texture) {
         Role::Galaxy => galaxy::check(report, texture),
         Role::Sky => sky::check(report, texture),
         Role::Sun => sun::check(report, texture),
+        Role::Octaves => octaves::check(report, texture),
+        Role::Fbm => fbm::check(report, texture),
+        Role::Flares => flares::check(report, texture),
+        Role::Skybox => skybox::check(report, texture),
     }
 }
 

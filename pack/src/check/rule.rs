@@ -50,7 +50,7 @@ macro_rules! rules {
 rules! {
     SEAL = error("seal", "The manifest is the one that the baker wrote.");
     MANIFEST = error("manifest", "Every entry of the manifest names what its role asks: file, format, shape, channels.");
-    ROLES = error("roles", "Every role has a texture.");
+    ROLES = error("roles", "Every role has a texture, but for `skybox`.");
     FILE_HASH = error("file-hash", "Every file has the size and the hash that the manifest gives.");
     CONTAINER = error("container", "Every file is a KTX2 file that decodes whole.");
     LAYOUT = error("layout", "Format, shape, size and levels of a file are those of the manifest and of the role.");
@@ -78,4 +78,11 @@ rules! {
     SKY_STEP = warning("sky-step", "The sky changes without jumps from one time of day to the next.");
     SUN_DISC = error("sun-disc", "The sun's disc is bright in its middle and gone outside its edge.");
     SUN_BORDER = error("sun-border", "Disc and glow are zero along the sides of the square.");
+    NOISE_FLAT = error("noise-flat", "Every value is equally often in a channel of the octaves.");
+    NOISE_WHITE = error("noise-white", "The octaves' noise is white: no wave stands out, and no band of waves.");
+    OCTAVE_BAND = error("octave-band", "Every layer of the fbm noise has its energy in the band of its octave.");
+    DISPLACED = error("displaced", "The displaced channels of the fbm noise are the noise, displaced.");
+    FLARE_CELLS = error("flare-cells", "Every cell of the flares has light, and none along its border.");
+    SKYBOX_RANGE = error("skybox-range", "Radiance is finite and not negative, and the cover between 0 and 1.");
+    SKYBOX_SEAM = warning("skybox-seam", "Across the 12 edges of the cube the picture changes no more than beside them.");
 }

@@ -3,6 +3,7 @@
 //! The statistical rules compare the field with one of independent stars, and are set so that they blame
 //! such a field once in a million.
 
+use super::chance::{FALSE_ALARMS, chi_squared, chi_squared_quantile};
 use super::report::{Bound, Report};
 use super::rule::{
     STAR_CLIP, STAR_CLUSTER, STAR_EMPTY, STAR_LATTICE, STAR_LIGHT, STAR_PHASE, STAR_SHARE,
@@ -10,12 +11,6 @@ use super::rule::{
 use crate::{Role, Texture};
 
 const NAME: &str = Role::Stars.name();
-
-/// How often a rule may blame a sound field.
-const FALSE_ALARMS: f64 = 1e-6;
-
-/// The standard normal deviate that is exceeded with probability [`FALSE_ALARMS`].
-const FALSE_ALARM_Z: f64 = 4.753_424;
 
 pub(super) fn check(report: &mut Report, texture: &Texture) {
     let texels = |level: usize| texture.levels[level].chunks_exact(4);
@@ -156,22 +151,4 @@ fn check_clusters(report: &mut Report, stars: &[[usize; 2]], width: u32, height:
         index,
         Bound::AtMost(chi_squared_quantile(freedom) / freedom),
     );
-}
-
-/// Pearson's statistic against equal expectations.
-fn chi_squared(counts: &[f64]) -> f64 {
-    let expected = counts.iter().sum::<f64>() / counts.len() as f64;
-    counts
-        .iter()
-        .map(|n| (n - expected) * (n - expected) / expected)
-        .sum()
-}
-
-/// The value that chi squared exceeds with probability [`FALSE_ALARMS`].
-///
-/// E. B. Wilson and M. M. Hilferty, "The distribution of chi-square", 1931: the cube root is near normal.
-fn chi_squared_quantile(freedom: f64) -> f64 {
-    let a = 2.0 / (9.0 * freedom);
-    let root = 1.0 - a + FALSE_ALARM_Z * libm::sqrt(a);
-    freedom * root * root * root
 }

@@ -5,7 +5,7 @@ use super::rule::{SEAM, SMOOTH};
 use super::subject;
 use crate::{Image, Role, Texture};
 
-/// Compares the difference across the edges with the differences inside, on both axes and every level.
+/// Compares the difference across the edges with the differences inside, on both axes, every level and layer.
 ///
 /// The figure is the worst ratio of the root mean square difference across the edge to the largest one
 /// between two neighbouring rows or columns inside, over its bound at that level. In a channel that tiles
@@ -13,8 +13,9 @@ use crate::{Image, Role, Texture};
 /// the largest from, hence the slack of 8 / rows.
 pub(super) fn check_seam(report: &mut Report, role: Role, texture: &Texture, channel: usize) {
     let mut worst = 0.0_f64;
-    for level in 0..texture.levels.len() {
-        let image = texture.image(level, 0);
+    let images = (0..texture.levels.len())
+        .flat_map(|level| (0..texture.layers).map(move |layer| texture.image(level, layer)));
+    for image in images {
         for axis in [Axis::X, Axis::Y] {
             let (inside, across) = differences(&image, channel, axis);
             let Some(largest) = inside.into_iter().reduce(f64::max) else {

@@ -1,0 +1,96 @@
+//! Smooth noise, an octave a layer, and the same noise displaced towards the sun.
+
+mod band;
+
+use super::report::{Bound, Report};
+use super::rule::{DISPLACED, OCTAVE_BAND};
+use super::spectrum::Spectrum;
+use super::{subject, tiling};
+use crate::mapping::FBM_STEPS_A_TILE;
+use crate::{Image, Role, Texture};
+use band::Interpolation;
+
+/// The channel of the noise itself; the channels before it are three, two and one steps away.
+const NOISE: usize = 3;
+
+/// Share of the energy that rounding to bytes makes, all over the spectrum: a step's variance, 1/12 of its
+/// square, over that of the noise. Numbers even over 0..1 have the variance 1/12, and interpolation leaves
+/// 26/35 of it in either direction: the mean of `h(t)^2 + h(1 - t)^2`.
+const ROUNDING: f64 = 1.0 / (255.0 * 255.0) / (26.0 * 26.0 / (35.0 * 35.0));
+
+/// The fewest cells of a first layer.
+const LEAST_CELLS: u32 = 4;
+
+pub(super) fn check(report: &mut Report, texture: &Texture) {
+    let layers: Vec<Image> = (0..texture.layers).map(|i| texture.image(0, i)).collect();
+    for channel in 0..NOISE {
+        let worst = layers
+            .iter()
+            .map(|image| displacement(image, channel))
+            .fold(0.0, f32::max);
+        // Both come from the same numbers, so a step of a byte is rounding.
+        report.measure(
+            DISPLACED,
+            &subject(Role::Fbm, channel),
+            f64::from(worst),
+            Bound::AtMost(1.001 / 255.0),
+        );
+    }
+    for channel in 0..=NOISE {
+        tiling::check_seam(report, Role::Fbm, texture, channel);
+    }
+    check_bands(report, &layers);
+}
+
+/// The largest difference between a channel and the noise that many steps to the right.
+fn displacement(image: &Image, channel: usize) -> f32 {
+    let away = (NOISE - channel) as u32 * image.width / FBM_STEPS_A_TILE;
+    let texels = (0..image.width * image.height).map(|i| (i % image.width, i / image.width));
+    texels
+        .map(|(x, y)| {
+            let noise = image.texel((x + away) % image.width, y)[NOISE];
+            (image.texel(x, y)[channel] - noise).abs()
+        })
+        .fold(0.0, f32::max)
+}
+
+/// Noise on a lattice of `c` cells lies below the wave number `c`, and a good part of it above `c / 2`,
+/// where the octave before ends. The first layer tells what `c` is: each has twice that of the one before.
+fn check_bands(report: &mut Report, layers: &[Image]) {
+    let spectra: Vec<Spectrum> = layers.iter().map(|i| Spectrum::new(i, NOISE)).collect();
+    let Some(size) = layers.first().map(|image| image.width) else {
+        return;
+    };
+    let cells = cells_of_the_first(&spectra, size);
+    for (index, spectrum) in spectra.iter().enumerate() {
+        let (cells, layer) = (cells << index, index + 1);
+        let octave = Interpolation::new(size, cells);
+        let mut measure = |cut: u32, bound| {
+            let name = format!("{} {layer} below {cut}", subject(Role::Fbm, NOISE));
+            report.measure(OCTAVE_BAND, &name, share(spectrum, cut), bound);
+        };
+        measure(
+            cells,
+            Bound::AtLeast(octave.share_below(cells)[0] - ROUNDING),
+        );
+        measure(cells / 2, Bound::AtMost(octave.share_below(cells / 2)[1]));
+    }
+}
+
+/// The least power of two below which the first layer has the energy that it should have. Its bound is so
+/// near to 1 that no sound octave reaches that of half its cells.
+fn cells_of_the_first(spectra: &[Spectrum], size: u32) -> u32 {
+    // The finest cell of the last layer has two texels.
+    let most = (size / 2) >> (spectra.len() - 1);
+    let candidates = (0..).map(|i| LEAST_CELLS << i).take_while(|&n| n < most);
+    let fits = |cells: u32| {
+        let least = Interpolation::new(size, cells).share_below(cells)[0];
+        share(&spectra[0], cells) >= least - ROUNDING
+    };
+    candidates.into_iter().find(|&n| fits(n)).unwrap_or(most)
+}
+
+/// Share of the energy at wave numbers up to `cut` in both directions; 0 in a flat channel.
+fn share(spectrum: &Spectrum, cut: u32) -> f64 {
+    spectrum.ring(1..=cut as usize).0 / spectrum.total().max(f64::MIN_POSITIVE)
+}

@@ -1,0 +1,75 @@
+//! The white noise of the octaves.
+//!
+//! The statistical rule compares a channel with independent random numbers, and is set so that it blames
+//! such a channel once in a million.
+
+use super::chance::{FALSE_ALARMS, chi_squared_deviate};
+use super::report::{Bound, Report};
+use super::rule::{NOISE_FLAT, NOISE_WHITE};
+use super::spectrum::Spectrum;
+use super::subject;
+use crate::{Role, Texture};
+
+/// Bands of wave numbers, each an octave wide, to the shortest wave of 32 texels.
+const BANDS: [[usize; 2]; 4] = [[1, 2], [3, 4], [5, 8], [9, 16]];
+
+/// The standard normal deviate that the largest of four strays beyond, to either side, once in a million:
+/// its tail is 1e-6 / 8.
+const BAND_Z: f64 = 5.157_701;
+
+pub(super) fn check(report: &mut Report, texture: &Texture) {
+    for channel in 0..texture.format.channels() {
+        check_flat(report, texture, channel);
+        check_white(report, texture, channel);
+    }
+}
+
+/// How far the count of a byte value is from an equal share of the texels.
+fn check_flat(report: &mut Report, texture: &Texture, channel: usize) {
+    let channels = texture.format.channels();
+    let mut counts = [0_usize; 256];
+    let texels = texture.levels[0].iter().skip(channel).step_by(channels);
+    texels.for_each(|&byte| counts[usize::from(byte)] += 1);
+    let share = texture.levels[0].len() / channels / counts.len();
+    let worst = counts.iter().map(|count| count.abs_diff(share)).max();
+    report.measure(
+        NOISE_FLAT,
+        &subject(Role::Octaves, channel),
+        worst.unwrap_or(0) as f64,
+        Bound::AtMost(0.0),
+    );
+}
+
+/// The spectrum of white noise: at every wave vector the energy, over its mean, is half of chi squared of
+/// two degrees of freedom; summed over a band it is chi squared of as many degrees as there are vectors.
+fn check_white(report: &mut Report, texture: &Texture, channel: usize) {
+    let spectrum = Spectrum::new(&texture.image(0, 0), channel);
+    let (total, vectors) = spectrum.ring(1..=BANDS[3][1]);
+    let name = subject(Role::Octaves, channel);
+    if total <= 0.0 {
+        report.skip(NOISE_WHITE, &name, "the channel is flat");
+        return;
+    }
+    let mean = total / vectors as f64;
+    // Of two conjugate vectors one says all.
+    let most = libm::log(vectors as f64 / 2.0 / FALSE_ALARMS);
+    report.measure(
+        NOISE_WHITE,
+        &format!("{name} peak"),
+        spectrum.peak() / mean,
+        Bound::AtMost(most),
+    );
+    let worst = BANDS
+        .map(|[first, last]| {
+            let (energy, vectors) = spectrum.ring(first..=last);
+            chi_squared_deviate(energy / mean, vectors as f64).abs()
+        })
+        .into_iter()
+        .fold(0.0, f64::max);
+    report.measure(
+        NOISE_WHITE,
+        &format!("{name} bands"),
+        worst,
+        Bound::AtMost(BAND_Z),
+    );
+}

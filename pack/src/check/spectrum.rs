@@ -1,0 +1,159 @@
+//! The energy of a tiling channel over wave vectors.
+
+use std::ops::RangeInclusive;
+
+use crate::Image;
+
+/// A complex number: real and imaginary part.
+type Complex = [f64; 2];
+
+/// `|F(k)|^2` of a square channel without its mean, where `F(k) = sum f(x) exp(-2 pi i k.x / size)`.
+pub(super) struct Spectrum {
+    size: usize,
+    /// Row by row; wave numbers above `size / 2` stand for negative ones.
+    energy: Vec<f64>,
+}
+
+impl Spectrum {
+    /// Of a square image whose side is a power of two.
+    pub(super) fn new(image: &Image, channel: usize) -> Spectrum {
+        let size = image.width as usize;
+        let mut grid: Vec<Complex> = image.channel(channel).map(|v| [v.into(), 0.0]).collect();
+        let turns = turns(size);
+        grid.chunks_exact_mut(size)
+            .for_each(|row| transform(row, &turns));
+        transpose(&mut grid, size);
+        grid.chunks_exact_mut(size)
+            .for_each(|column| transform(column, &turns));
+        transpose(&mut grid, size);
+        let mut energy: Vec<f64> = grid.iter().map(|[re, im]| re * re + im * im).collect();
+        energy[0] = 0.0;
+        Spectrum { size, energy }
+    }
+
+    /// Sum over all wave vectors but 0.
+    pub(super) fn total(&self) -> f64 {
+        self.energy.iter().sum()
+    }
+
+    /// Sum over the wave vectors whose larger component is in `waves`, and how many they are.
+    pub(super) fn ring(&self, waves: RangeInclusive<usize>) -> (f64, usize) {
+        let inside = self.vectors().filter(|(kx, ky, _)| {
+            let larger = self.magnitude(*kx).max(self.magnitude(*ky));
+            larger > 0 && waves.contains(&larger)
+        });
+        inside.fold((0.0, 0), |(sum, count), (_, _, energy)| {
+            (sum + energy, count + 1)
+        })
+    }
+
+    /// The largest energy of a wave vector. Those that are their own conjugates count half: their energy is
+    /// the square of one normal number and not of two, so it strays twice as far.
+    pub(super) fn peak(&self) -> f64 {
+        let lone = |k: usize| k == 0 || 2 * k == self.size;
+        self.vectors()
+            .map(|(kx, ky, energy)| match lone(kx) && lone(ky) {
+                true => energy / 2.0,
+                false => energy,
+            })
+            .fold(0.0, f64::max)
+    }
+
+    fn vectors(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        let size = self.size;
+        let places = self.energy.iter().enumerate();
+        places.map(move |(i, &energy)| (i % size, i / size, energy))
+    }
+
+    fn magnitude(&self, k: usize) -> usize {
+        k.min(self.size - k)
+    }
+}
+
+/// `exp(-2 pi i j / n)` for `j` below `n / 2`.
+fn turns(n: usize) -> Vec<Complex> {
+    let angle = |j: usize| -std::f64::consts::TAU * j as f64 / n as f64;
+    (0..n / 2)
+        .map(|j| [libm::cos(angle(j)), libm::sin(angle(j))])
+        .collect()
+}
+
+/// The discrete Fourier transform in place; the length is a power of two.
+///
+/// J. W. Cooley, J. W. Tukey, "An algorithm for the machine calculation of complex Fourier series", 1965.
+fn transform(line: &mut [Complex], turns: &[Complex]) {
+    let n = line.len();
+    let unused_bits = n.leading_zeros() + 1;
+    for i in 1..n {
+        let mirrored = i.reverse_bits() >> unused_bits;
+        if i < mirrored {
+            line.swap(i, mirrored);
+        }
+    }
+    let mut half = 1;
+    while half < n {
+        for block in line.chunks_exact_mut(2 * half) {
+            let (low, high) = block.split_at_mut(half);
+            for (j, (a, b)) in low.iter_mut().zip(high).enumerate() {
+                let [cos, sin] = turns[j * n / (2 * half)];
+                let turned = [b[0] * cos - b[1] * sin, b[0] * sin + b[1] * cos];
+                *b = [a[0] - turned[0], a[1] - turned[1]];
+                *a = [a[0] + turned[0], a[1] + turned[1]];
+            }
+        }
+        half *= 2;
+    }
+}
+
+fn transpose(grid: &mut [Complex], size: usize) {
+    for y in 0..size {
+        for x in 0..y {
+            grid.swap(y * size + x, x * size + y);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_the_sum_that_defines_it() {
+        let n = 16;
+        let line: Vec<Complex> = (0..n)
+            .map(|i| [(i * i % 7) as f64, (i % 3) as f64])
+            .collect();
+        let mut found = line.clone();
+        transform(&mut found, &turns(n));
+        for (k, value) in found.iter().enumerate() {
+            let mut sum = [0.0, 0.0];
+            for (x, [re, im]) in line.iter().enumerate() {
+                let angle = -std::f64::consts::TAU * (k * x) as f64 / n as f64;
+                let (cos, sin) = (libm::cos(angle), libm::sin(angle));
+                sum = [sum[0] + re * cos - im * sin, sum[1] + re * sin + im * cos];
+            }
+            assert!((value[0] - sum[0]).abs() < 1e-10 && (value[1] - sum[1]).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn a_wave_is_in_its_ring_alone() {
+        let mut image = Image::new(32, 32, 2);
+        for y in 0..32 {
+            for x in 0..32 {
+                let turn = (3 * x + 32 - 5 * y % 32) as f32 / 32.0;
+                image.texel_mut(x, y)[1] = 0.5 + 0.25 * libm::cosf(std::f32::consts::TAU * turn);
+            }
+        }
+        let spectrum = Spectrum::new(&image, 1);
+        // A cosine of amplitude a has two waves with the energy (a n^2 / 2)^2 each.
+        let each = libm::pow(0.25 * 1024.0 / 2.0, 2.0);
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-4 * each;
+        assert!(close(spectrum.total(), 2.0 * each));
+        assert!(close(spectrum.ring(5..=5).0, 2.0 * each));
+        assert!(close(spectrum.peak(), each));
+        // 11 wave vectors a side less 9 a side.
+        assert_eq!(spectrum.ring(5..=5).1, 121 - 81);
+        assert_eq!(spectrum.ring(1..=16).1, 1023);
+    }
+}

@@ -1,0 +1,68 @@
+// The map of the octaves method: every octave up-sampled, filtered, tiled and summed. CPU part: octaves_map.rs.
+
+// The four weights of the cubic B-spline between two texels.
+fn octaves_spline(t: vec2f) -> array<vec2f, 4> {
+    let s = 1.0 - t;
+    return array<vec2f, 4>(
+        s * s * s / 6.0,
+        (4.0 + 3.0 * t * t * (t - 2.0)) / 6.0,
+        (4.0 + 3.0 * s * s * (s - 2.0)) / 6.0,
+        t * t * t / 6.0,
+    );
+}
+
+// An octave at a place in texels of its noise: sixteen weighted texels by four bilinear reads (C. Sigg, M. Hadwiger,
+// "Fast Third-Order Texture Filtering", GPU Gems 2, 2005).
+fn octaves_filtered(place: vec2f, octave: i32) -> f32 {
+    let centre = place - 0.5;
+    let first = floor(centre);
+    let w = octaves_spline(centre - first);
+    let near = w[0] + w[1];
+    let far = w[2] + w[3];
+    let low = (first - 0.5 + w[1] / near) / OCTAVE_NOISE_SIDE;
+    let high = (first + 1.5 + w[3] / far) / OCTAVE_NOISE_SIDE;
+    let upper = near.x * octaves_noise(low, octave) + far.x * octaves_noise(vec2f(high.x, low.y), octave);
+    let lower = near.x * octaves_noise(vec2f(low.x, high.y), octave) + far.x * octaves_noise(high, octave);
+    return near.y * upper + far.y * lower;
+}
+
+fn octaves_noise(uv: vec2f, octave: i32) -> f32 {
+    return textureSampleLevel(layers_texture, repeat_sampler, uv, octave, 0.0).r;
+}
+
+// The share of a normal distribution below z: E. Page, "Approximations to the Cumulative Normal Function and its
+// Inverse for Use on a Pocket Calculator", Applied Statistics 26(1), 1977.
+fn normal_share(z: f32) -> f32 {
+    return 0.5 + 0.5 * tanh(clamp(NORMAL_SLOPE * z * (1.0 + NORMAL_BEND * z * z), -9.0, 9.0));
+}
+
+// The weighted octaves from the first up to `count`.
+fn octaves_sum(uv: vec2f, first: i32, count: i32) -> f32 {
+    let octaves = uniforms.octaves;
+    var sum = 0.0;
+    for (var k = first; k < count; k++) {
+        let copies = select(octaves.cells_a[k & 3], octaves.cells_b[k & 3], k > 3);
+        sum += octaves_filtered(uv * copies * OCTAVE_NOISE_SIDE, k);
+    }
+    return sum;
+}
+
+// R: the amount; G: opacity of the low dome; B: of the middle dome; A: display-referred grey of the low dome.
+@fragment
+fn fs_octaves_map(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let octaves = uniforms.octaves;
+    let uv = position.xy / octaves.map.y;
+    let count = i32(octaves.map.x);
+    let large = min(count, OCTAVE_RELIEF_COUNT);
+    // Finer octaves have no slope over a step: they would only add noise to the relief.
+    let small = octaves_sum(uv, large, count);
+    let amount = normal_share(octaves_sum(uv, 0, large) + small);
+    let towards_sun = normal_share(octaves_sum(uv + octaves.sun.xy, 0, large) + small);
+    let relief = octaves.shape.z * (amount - towards_sun);
+    let thickness = amount - octaves.low.place.w;
+    let low = octaves_alpha(thickness, octaves.shape.x);
+    let middle = octaves_alpha(amount - octaves.middle.place.w, OCTAVE_THIN * octaves.shape.x);
+    // In a shut sky the cut is below 0, and what lies under 0 does not darken.
+    let dark = octaves.shape.y * max(amount - max(octaves.low.place.w, 0.0), 0.0);
+    return vec4f(amount, low, middle, octaves.map.z + relief - dark);
+}

@@ -1,0 +1,85 @@
+//! The lens flare: light that the lens throws onto the line from the sun through the middle of the screen.
+//!
+//! # Theory
+//! Guthikonda et al. (see [`crate::octaves`]), section III: a picture of the sun and five of flares, at 0.5, 0.33333, -0.05, -0.25 and
+//! -0.75 of the sun's distance from the middle of the screen, added by their own opacity. They are there only while
+//! the sun is in view. Lenses of circular shape, no aperture.
+//!
+//! # Changes versus the paper
+//! The flare fades with the clouds before the sun, with the sun's height, and at the edge of the screen instead of going
+//! out at once. How much the clouds cover is asked of the method's own clouds, in the vertex stage: nothing is read back.
+//!
+//! # Practice
+//! Six squares, drawn after the sky and over the scene, in the target's own encoding: what is behind a hill is for the
+//! application to know ([`crate::SkyParams::flare`] 0 switches it off). Five looks at the clouds a vertex.
+
+use glam::{Vec2, Vec3};
+use welkin_pack::mapping::FlareCell;
+
+use crate::SkyParams;
+use crate::light::{Light, luminance, smoothstep};
+use crate::uniforms::{CameraUniforms, FlareUniforms};
+
+/// Squares: the sun's and the flares'.
+pub const COUNT: u32 = 6;
+
+/// Distances of the squares from the middle of the screen, in distances of the sun; the sun's own first.
+pub const RATIOS: [f32; COUNT as usize] = [1.0, 0.5, 0.33333, -0.05, -0.25, -0.75];
+
+/// Picture, half side in halves of the screen's height, colour and opacity of each square.
+const SQUARES: [(FlareCell, f32, [f32; 3], f32); COUNT as usize] = [
+    (FlareCell::Starburst, 0.44, [1.0, 0.95, 0.85], 0.4),
+    (FlareCell::Disc, 0.085, [1.0, 0.85, 0.55], 0.14),
+    (FlareCell::Ring, 0.15, [0.65, 0.85, 1.0], 0.15),
+    (FlareCell::Disc, 0.05, [0.75, 1.0, 0.75], 0.12),
+    (FlareCell::Glow, 0.19, [0.6, 0.75, 1.0], 0.16),
+    (FlareCell::Ring, 0.33, [1.0, 0.75, 0.55], 0.13),
+];
+
+/// The angle about the sun in which clouds hide it, as a sine: a little more than its disc.
+const HIDING: f32 = 0.012;
+/// Share of the half screen over which the flare fades as the sun goes out of view.
+const EDGE: f32 = 0.06;
+/// Sines of the sun's elevation between which the flare comes up.
+const RISE: [f32; 2] = [-0.01, 0.14];
+/// Levels beyond this would mix the cells of the atlas.
+const LAST_LEVEL: f32 = 3.0;
+
+/// The flare's share of the uniforms. `texels` is the side of the atlas.
+pub fn uniforms(
+    params: &SkyParams,
+    light: &Light,
+    camera: &CameraUniforms,
+    texels: u32,
+) -> FlareUniforms {
+    let (width, height) = (camera.right[3], camera.up[3]);
+    let sun = sun_on_screen(light.sun_direction, camera);
+    let in_view = sun.map_or(0.0, |sun| {
+        1.0 - smoothstep(1.0 - EDGE, 1.0, sun.abs().max_element())
+    });
+    let risen = smoothstep(RISE[0], RISE[1], light.sun_direction.y);
+    let mut flares = FlareUniforms {
+        light: [params.flare * in_view * risen, HIDING, 0.0, 0.0],
+        ..Default::default()
+    };
+    let hue = light.sunlight / luminance(light.sunlight).max(1e-3);
+    for (k, (cell, half, colour, opacity)) in SQUARES.into_iter().enumerate() {
+        let place = sun.unwrap_or_default() * RATIOS[k];
+        flares.places[k] = [place.x, place.y, half * height / width, half];
+        let colour = (Vec3::from(colour) * hue).min(Vec3::ONE);
+        flares.colours[k] = [colour.x, colour.y, colour.z, opacity];
+        let [[u, v], [right, _]] = cell.uv_rect();
+        let side = right - u;
+        let texels_a_pixel = side * texels as f32 / (half * height).max(1.0);
+        let level = texels_a_pixel.log2().clamp(0.0, LAST_LEVEL);
+        flares.cells[k] = [u, v, side, level];
+    }
+    flares
+}
+
+/// Where the sun is in clip space, if it is before the camera.
+fn sun_on_screen(sun: Vec3, camera: &CameraUniforms) -> Option<Vec2> {
+    let along = |row: [f32; 4]| sun.dot(Vec3::new(row[0], row[1], row[2]));
+    let w = along(camera.clip_w);
+    (w > 1e-4).then(|| Vec2::new(along(camera.clip_x), along(camera.clip_y)) / w)
+}

@@ -1,0 +1,70 @@
+//! Twin of fbm_map.wgsl: the article's loop over up to eight layers, in floats.
+
+use welkin_pack::Image;
+use welkin_runtime::fbm_map::{ABSORPTION, DEPTHS};
+use welkin_runtime::uniforms::FbmUniforms;
+
+use crate::texture::Texture;
+
+/// Level 0 of the map, not rounded: shade, sum, nothing, cover. `layers` are those of
+/// [`crate::fbm_pack::packed`].
+pub fn render(fbm: &FbmUniforms, layers: &[Texture]) -> Image {
+    let [m, n, count, side] = fbm.remap;
+    let offsets = [fbm.offsets_a, fbm.offsets_b, fbm.offsets_c, fbm.offsets_d].concat();
+    let weights = [fbm.weights_a, fbm.weights_b].concat();
+    let (width, height) = (side as u32, side as u32);
+    let mut map = Image::new(width, height, 4);
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        let (u, v) = ((x as f32 + 0.5) / side, (y as f32 + 0.5) / side);
+        let mut sums = [0.0; 4];
+        for k in 0..count as usize {
+            let read = layers[k].sample([u + offsets[2 * k], v + offsets[2 * k + 1]], 0.0);
+            for (sum, noise) in sums.iter_mut().zip(read) {
+                *sum += weights[k] * noise;
+            }
+        }
+        let cover = (m * sums[3] + n).clamp(0.0, 1.0);
+        let shade = shade(sums.map(|sum| m * sum + fbm.step[3]));
+        map.texel_mut(x, y)
+            .copy_from_slice(&[shade, sums[3], 0.0, cover]);
+    }
+    map
+}
+
+/// What a texel of level 0 may be off by, in bytes: the four channels at most, and on average.
+///
+/// A texture unit may filter 8-bit texels in 8 bits (Mesa's software does), so a read is off by up to a byte; the channels
+/// that point towards the sun have been read and rounded once before, which makes two. Weights add up to 1, so the sums are
+/// off by no more; heights are m times their sum; the shade grows by at most ln 2 times the absorption times the mean
+/// height; the target rounds by half a byte. On average rounding is off by a quarter of its step.
+pub fn allowance(fbm: &FbmUniforms) -> ([f32; 4], [f32; 4]) {
+    let m = fbm.remap[0];
+    let height = m * (2.0 + 2.0 + 2.0 + 1.0) / 4.0;
+    let shade = std::f32::consts::LN_2 * ABSORPTION * height;
+    let most = [shade, 1.0, 0.0, m].map(|bytes| bytes + 0.5);
+    (most, most.map(|bytes| bytes / 4.0))
+}
+
+/// What the cloud takes from the light: by the mean height above the ray.
+fn shade(heights: [f32; 4]) -> f32 {
+    let above = heights
+        .iter()
+        .zip(DEPTHS)
+        .map(|(h, depth)| (h - depth).max(0.0));
+    1.0 - libm::exp2f(-ABSORPTION * above.sum::<f32>() / 4.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_cloud_takes_no_light_and_more_cloud_takes_more() {
+        assert_eq!(shade([0.0; 4]), 0.0);
+        assert_eq!(shade(DEPTHS), 0.0, "nothing is above the ray");
+        // One of four samples inside, by a half: an eighth in the mean.
+        let expected = 1.0 - libm::exp2f(-ABSORPTION / 8.0);
+        assert!((shade([0.0, 0.0, 0.0, 0.5]) - expected).abs() < 1e-6);
+        assert!(shade([1.0; 4]) > shade([0.9; 4]));
+    }
+}

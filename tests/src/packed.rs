@@ -1,0 +1,204 @@
+//! Twin of packed.wgsl.
+
+use glam::{Vec2, Vec3};
+use welkin_runtime::packed::{EDGE, FOLD, UPPER_OPACITY, UPPER_THRESHOLD};
+use welkin_runtime::uniforms::Uniforms;
+
+use crate::clouds::{self, Inputs, light, soften};
+use crate::texture::smoothstep;
+use crate::{dome, xyz};
+
+/// The four samples that the paper's shader starts from (lines 10-13).
+#[derive(Clone, Copy, Debug)]
+pub struct Samples {
+    /// First layer.
+    pub photo: f32,
+    /// Second layer.
+    pub noise: f32,
+    /// Detail.
+    pub detail: f32,
+    /// Sunset gradient times sunset.
+    pub tint: f32,
+}
+
+/// Lines 14 to 27: display-referred colour and opacity.
+pub fn shade(uniforms: &Uniforms, samples: Samples) -> (Vec3, f32) {
+    let (packed, clouds) = (&uniforms.packed, &uniforms.clouds);
+    let [cut, stretch, density, _] = packed.shape;
+    let Samples {
+        photo,
+        noise,
+        detail,
+        tint,
+    } = samples;
+    let amount = photo + noise * (1.0 - photo);
+    let mut alpha = (amount - cut) * stretch;
+    let mut grey = amount + detail * (1.0 - amount);
+    alpha *= detail + (1.0 - detail) * packed.levels[2];
+    if alpha > 0.0 {
+        let thick = density * alpha * 2.0;
+        grey += thick;
+        alpha += thick;
+    }
+    let (grey, alpha) = (fold(grey).clamp(0.0, 1.0), alpha.clamp(0.0, 1.0));
+    (Vec3::splat(grey).lerp(xyz(clouds.tint), tint), alpha)
+}
+
+/// Lines 22-23 with the kink rounded off.
+pub fn fold(grey: f32) -> f32 {
+    let beyond = grey - 1.0;
+    grey - 0.75 * (beyond + libm::sqrtf(beyond * beyond + FOLD * FOLD))
+}
+
+/// See [`clouds::layer`]. Reads: photo, noise, detail, upper layer.
+pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
+    let (packed, clouds) = (&inputs.uniforms.packed, &inputs.uniforms.clouds);
+    let hit = dome::intersect(direction);
+    let level = clouds::level(&hit, narrowing);
+    let at = |uv: Vec2, constant: f32, channel: usize| {
+        let sample = inputs.clouds.sample(uv.to_array(), level + constant);
+        sample[channel] + inputs.nudges[channel]
+    };
+    let [photo, photo_x, photo_y, photo_level] = packed.photo;
+    let [detail, detail_x, detail_y, detail_level] = packed.detail;
+    let [cos, sin, noise_x, noise_y] = packed.noise;
+    let [noise_level, upper_level, ..] = packed.levels;
+    let turned = Vec2::new(cos, sin).rotate(hit.plane);
+    let photo_uv = hit.plane * photo + Vec2::new(photo_x, photo_y);
+    let detail_uv = hit.plane * detail + Vec2::new(detail_x, detail_y);
+    let samples = Samples {
+        photo: at(photo_uv, photo_level, 0),
+        noise: at(turned + Vec2::new(noise_x, noise_y), noise_level, 1),
+        detail: at(detail_uv, detail_level, 2),
+        tint: clouds::tint(clouds, inputs.clouds, direction),
+    };
+    let (display, alpha) = shade(inputs.uniforms, samples);
+    let (mut radiance, mut alpha) = (light(clouds, display), soften(alpha, EDGE));
+    let upper = packed.shape[3];
+    if upper > 0.0 {
+        let [x, y, offset_x, offset_y] = packed.upper;
+        let uv = hit.plane * Vec2::new(x, y) + Vec2::new(offset_x, offset_y);
+        let wisp = inputs.clouds.sample(uv.to_array(), level + upper_level)[1] + inputs.nudges[3];
+        let veil = upper * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, wisp);
+        let over = alpha + veil * (1.0 - alpha);
+        let white = light(clouds, Vec3::ONE.lerp(xyz(clouds.tint), samples.tint));
+        radiance = white.lerp(radiance, alpha / over.max(1e-4));
+        alpha = over;
+    }
+    (radiance, alpha * clouds::clearness(clouds, direction))
+}
+
+#[cfg(test)]
+mod tests {
+    use welkin_runtime::uniforms::{CloudUniforms, PackedUniforms};
+
+    use super::*;
+
+    /// The paper's lines, worked by hand; brightness is folded as [`fold`] does it.
+    #[test]
+    fn lines_14_to_27_give_what_they_give_by_hand() {
+        let uniforms = |cover: f32, density: f32| Uniforms {
+            packed: PackedUniforms {
+                shape: [1.0 - cover, 1.0 / cover.max(0.05), density, 0.0],
+                levels: [0.0, 0.0, density, 0.0],
+                ..Default::default()
+            },
+            clouds: CloudUniforms {
+                tint: [1.0, 0.5, 0.25, 1.0],
+                ..Default::default()
+            },
+            ..Default::default()
+        };
+        let near = |(colour, alpha): (Vec3, f32), expected: Vec3, expected_alpha: f32| {
+            let off = (colour - expected)
+                .abs()
+                .max_element()
+                .max((alpha - expected_alpha).abs());
+            assert!(
+                off < 1e-5,
+                "{colour} {alpha}, expected {expected} {expected_alpha}"
+            );
+        };
+        let samples = |photo, noise, tint| Samples {
+            photo,
+            noise,
+            detail: 0.5,
+            tint,
+        };
+        // Figure 2's cover: c = 0.2 + 0.3 * 0.8 = 0.44; a = 0.13 / 0.69 * 0.5; rgb = 0.44 + 0.5 * 0.56.
+        let thin = Vec3::splat(fold(0.72));
+        near(
+            shade(&uniforms(0.69, 0.0), samples(0.2, 0.3, 0.0)),
+            thin,
+            0.094_202_9,
+        );
+        // Figure 4's: c = 0.8; a = 0.37 / 0.57 * 0.92 = 0.597193; rgb = 0.9 + 1.003284.
+        near(
+            shade(&uniforms(0.57, 0.84), samples(0.5, 0.6, 0.0)),
+            Vec3::splat(fold(1.903_284)),
+            1.0,
+        );
+        // Nothing is left of a clear place, and half the tint where the tint is a half.
+        assert_eq!(shade(&uniforms(0.5, 0.3), samples(0.1, 0.2, 0.0)).1, 0.0);
+        let half = (thin + Vec3::new(1.0, 0.5, 0.25)) / 2.0;
+        near(
+            shade(&uniforms(0.69, 0.0), samples(0.2, 0.3, 0.5)),
+            half,
+            0.094_202_9,
+        );
+    }
+
+    /// A shut sky's horizon is the twin's cloud where every channel has its mean.
+    #[test]
+    fn a_shut_sky_far_away_is_the_mean_cloud() {
+        let pack = crate::pack::default_pack();
+        let facts = welkin_runtime::frame::Facts::new(pack).expect("the pack has every role");
+        let [photo, noise, detail] = facts.cloud_means;
+        let camera = welkin_runtime::Camera::looking(0.0, 0.3, 1.0, [64, 64]);
+        for (time, density) in [(0.5, 0.0), (0.3, 0.6), (0.0, 1.0)] {
+            let params = welkin_runtime::SkyParams {
+                cover: 1.0,
+                density,
+                time,
+                ..Default::default()
+            };
+            let uniforms = facts.uniforms(&params, &camera, 0.0, 0.0);
+            let samples = Samples {
+                photo,
+                noise,
+                detail,
+                tint: 0.0,
+            };
+            let (grey, _) = shade(&uniforms, samples);
+            let apart = light(&uniforms.clouds, grey) - xyz(uniforms.sky.overcast);
+            assert!(
+                apart.abs().max_element() < 1e-5,
+                "{time} {density}: {apart}"
+            );
+            assert_eq!(uniforms.sky.overcast[3], 1.0);
+        }
+        let fair = facts.uniforms(&welkin_runtime::SkyParams::default(), &camera, 0.0, 0.0);
+        assert_eq!(fair.sky.overcast[3], 0.0, "the paper's sky below cover 0.8");
+    }
+
+    #[test]
+    fn the_fold_is_the_papers_but_for_its_kink() {
+        for i in 0..300 {
+            let grey = i as f32 * 0.01;
+            let papers = if grey > 1.0 {
+                1.0 - (grey - 1.0) * 0.5
+            } else {
+                grey
+            };
+            // sqrt(x^2 + w^2) - |x| is at most w^2 / 2|x|, and w at the kink itself.
+            let beyond = (grey - 1.0).abs().max(1e-6);
+            let bound = 0.75 * FOLD.min(FOLD * FOLD / (2.0 * beyond));
+            let below = papers - fold(grey);
+            assert!(
+                below > -1e-5 && below < bound + 1e-5,
+                "{grey}: {papers}, folded {}",
+                fold(grey)
+            );
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Each off-screen pass alone: what a device draws into the map is what the twin computes.
+
+use welkin_pack::{Image, Pack};
+use welkin_runtime::{Camera, Method, OctaveParams, SkyParams};
+use welkin_tests::renderer::Twin;
+use welkin_tests::{gpu, map, pack};
+
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+fn camera() -> Camera {
+    Camera::looking(0.0, 0.5, 1.0, [64, 48])
+}
+
+/// Largest and mean distance of each channel, in bytes.
+fn apart(a: &Image, b: &Image) -> ([f32; 4], [f32; 4]) {
+    let (mut worst, mut sum) = ([0.0_f32; 4], [0.0_f64; 4]);
+    for (a, b) in a.texels.chunks_exact(4).zip(b.texels.chunks_exact(4)) {
+        for channel in 0..4 {
+            // Targets of 8 bits hold nothing beyond 0 and 1.
+            let off = (a[channel] - b[channel].clamp(0.0, 1.0)).abs() * 255.0;
+            worst[channel] = worst[channel].max(off);
+            sum[channel] += f64::from(off);
+        }
+    }
+    let texels = a.texels.len() as f64 / 4.0;
+    (worst, sum.map(|sum| (sum / texels) as f32))
+}
+
+/// Level 0 is the twin's, and every other level the mean of the one above it.
+fn assert_maps_agree(pack: &Pack, cases: &[(SkyParams, f64)]) {
+    let twin = Twin::new(pack);
+    let mut sky = gpu::sky(pack, FORMAT);
+    for (params, seconds) in cases {
+        gpu::prepare(&mut sky, params, &camera(), *seconds);
+        let frame = twin.frame_without_map(params, &camera(), *seconds);
+        let expected = frame.top_of_map().expect("the method has a map");
+        let (most, mean) = frame.map_allowance();
+        let found = gpu::read_map(&sky).expect("the method draws a map");
+        let levels = found.levels();
+        let (worst, found) = apart(&levels[0], &expected);
+        for channel in 0..4 {
+            assert!(
+                worst[channel] <= most[channel] && found[channel] <= mean[channel],
+                "{params:?} at {seconds} s: channel {channel} is off by {worst:?} of {most:?}, on average by {found:?} of {mean:?}"
+            );
+        }
+        assert_eq!(levels.len(), map::with_levels(expected).levels().len());
+        for (index, pair) in levels.windows(2).enumerate() {
+            let (worst, _) = apart(&pair[1], &map::halved(&pair[0]));
+            // Rounding to bytes is off by a half, and a float's last digits decide where it is just that.
+            assert!(
+                worst.iter().all(|&off| off < 0.501),
+                "below level {index}: {worst:?}"
+            );
+        }
+    }
+}
+
+fn octaves(octaves: OctaveParams, seconds: f64) -> (SkyParams, f64) {
+    let params = SkyParams {
+        method: Method::Octaves,
+        octaves,
+        ..SkyParams::default()
+    };
+    (params, seconds)
+}
+
+#[test]
+fn octaves_in_any_number() {
+    let usual = OctaveParams::default();
+    let cases: Vec<_> = (1..=8)
+        .map(|count| octaves(OctaveParams { count, ..usual }, 7.0 * f64::from(count)))
+        .collect();
+    assert_maps_agree(pack::default_pack(), &cases);
+}
+
+#[test]
+fn octaves_at_any_moment_cover_and_sharpness() {
+    let usual = OctaveParams::default();
+    let mut cases = Vec::new();
+    for seconds in [0.0, 29.9, 59.999, 60.0, 1e6, -5.0] {
+        cases.push(octaves(usual, seconds));
+    }
+    for sharpness in [0.0, 0.1] {
+        cases.push(octaves(OctaveParams { sharpness, ..usual }, 3.0));
+    }
+    for cover in [0.0, 0.2, 0.9, 1.0] {
+        let (params, seconds) = octaves(usual, 44.0);
+        cases.push((
+            SkyParams {
+                cover,
+                density: cover,
+                time: 0.3,
+                ..params
+            },
+            seconds,
+        ));
+    }
+    assert_maps_agree(pack::default_pack(), &cases);
+}
+
+fn fbm(cover: f32, time: f32, seconds: f64) -> (SkyParams, f64) {
+    let params = SkyParams {
+        method: Method::Fbm,
+        cover,
+        time,
+        ..SkyParams::default()
+    };
+    (params, seconds)
+}
+
+#[test]
+fn fbm_at_any_moment_cover_and_place_of_the_sun() {
+    let mut cases = vec![fbm(0.0, 0.5, 1.0), fbm(1.0, 0.5, 1.0)];
+    for time in [0.26, 0.4, 0.5, 0.6, 0.74, 0.0] {
+        cases.push(fbm(0.55, time, 100.0 * f64::from(time)));
+    }
+    for seconds in [0.0, 600.0, 1e6, -60.0] {
+        cases.push(fbm(0.5, 0.45, seconds));
+    }
+    assert_maps_agree(pack::default_pack(), &cases);
+}
+
+#[test]
+fn fbm_of_one_octave_and_of_eight() {
+    assert_maps_agree(&pack::with_octaves(1), &[fbm(0.5, 0.4, 30.0)]);
+    let cases = [fbm(0.5, 0.4, 30.0), fbm(0.7, 0.6, 1e6)];
+    assert_maps_agree(&pack::with_octaves(8), &cases);
+}

@@ -1,0 +1,238 @@
+//! Clouds change their shapes, and never jump.
+
+use welkin_runtime::frame::Facts;
+use welkin_runtime::uniforms::Uniforms;
+use welkin_runtime::{Camera, Method, Sky, SkyParams};
+use welkin_tests::clouds::MOST_READS;
+use welkin_tests::film::Film;
+use welkin_tests::renderer::{FILTER_STEP, Frame, Twin};
+use welkin_tests::{camera, dome, gpu, octaves_map, pack};
+
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+const SIZE: [u32; 2] = [96, 72];
+
+/// One frame of a film.
+const FRAME_S: f64 = 1.0 / 30.0;
+
+fn view() -> Camera {
+    Camera::looking(2.0, 0.8, 1.0, SIZE)
+}
+
+fn params(method: Method) -> SkyParams {
+    SkyParams {
+        method,
+        sun: false,
+        flare: 0.0,
+        ..SkyParams::default()
+    }
+}
+
+fn correlation(a: &[f32], b: &[f32]) -> f64 {
+    let mean = |v: &[f32]| v.iter().map(|&x| f64::from(x)).sum::<f64>() / v.len() as f64;
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    let (mut ab, mut aa, mut bb) = (0.0, 0.0, 0.0);
+    for (&a, &b) in a.iter().zip(b) {
+        let (a, b) = (f64::from(a) - mean_a, f64::from(b) - mean_b);
+        ab += a * b;
+        aa += a * a;
+        bb += b * b;
+    }
+    ab / (aa * bb).sqrt()
+}
+
+#[test]
+fn frames_a_minute_apart_are_different_skies() {
+    let mut film = Film::new();
+    for method in Method::ALL {
+        let frames: Vec<Vec<f32>> = (0..=30)
+            .map(|i| film.alpha(&params(method), &view(), 20.0 * f64::from(i)))
+            .collect();
+        let pairs = frames.iter().zip(&frames[3..]);
+        let found: Vec<f64> = pairs.map(|(a, b)| correlation(a, b)).collect();
+        let most = found.iter().fold(f64::MIN, |most, &c| most.max(c));
+        println!("{}: at most {most:.3} of {found:.2?}", method.name());
+        assert!(most < 0.9, "{}: {most}", method.name());
+    }
+}
+
+/// A channel of a level of the map, with its side.
+fn map_channel(sky: &Sky, level: u32, channel: usize) -> (Vec<f32>, usize) {
+    let map = sky.cloud_map().expect("the method has a map");
+    let texels = gpu::read_level(map, level);
+    let values = texels.iter().map(|texel| texel[channel]).collect();
+    (values, (map.width() >> level) as usize)
+}
+
+/// A tiling image moved by whole texels.
+fn shifted(image: &[f32], side: usize, [dx, dy]: [usize; 2]) -> Vec<f32> {
+    let row = |y: usize| &image[(y + dy) % side * side..][..side];
+    let moved = (0..side).map(|y| [&row(y)[dx..], &row(y)[..dx]].concat());
+    moved.collect::<Vec<_>>().concat()
+}
+
+/// The best correlation of two tiling images over all shifts: at 64 texels a side first, then around the best at 256.
+fn best_correlation(skies: [&Sky; 2], channel: usize) -> f64 {
+    let at = |wanted: usize| {
+        skies.map(|sky| {
+            let side = sky.cloud_map().map_or(0, wgpu::Texture::width) as usize;
+            map_channel(sky, (side / wanted).ilog2(), channel)
+        })
+    };
+    let best = |wanted: usize, shifts: &mut dyn Iterator<Item = [usize; 2]>| {
+        let [(a, side), (b, _)] = at(wanted);
+        let each = shifts.map(|shift| (correlation(&a, &shifted(&b, side, shift)), shift));
+        each.max_by(|a, b| a.0.total_cmp(&b.0))
+            .expect("there are shifts")
+    };
+    let mut coarse = (0..64).flat_map(|dy| (0..64).map(move |dx| [dx, dy]));
+    let (_, [dx, dy]) = best(64, &mut coarse);
+    let near = |d: usize| (d * 4 + 252..d * 4 + 261).map(|d| d % 256);
+    let mut fine = near(dy).flat_map(|y| near(dx).map(move |x| [x, y]));
+    best(256, &mut fine).0
+}
+
+/// With the scrolling taken out there is still change: the maps do not merely move.
+#[test]
+fn shapes_change_however_the_map_is_shifted() {
+    for (method, channel) in [(Method::Octaves, 1), (Method::Fbm, 3)] {
+        let mut skies = [0, 1].map(|_| gpu::sky(pack::default_pack(), FORMAT));
+        for start in [0.0, 190.0, 380.0] {
+            for (sky, seconds) in skies.iter_mut().zip([start, start + 60.0]) {
+                gpu::prepare(sky, &params(method), &view(), seconds);
+            }
+            let found = best_correlation([&skies[0], &skies[1]], channel);
+            println!(
+                "{} from {start} s: best of all shifts {found:.3}",
+                method.name()
+            );
+            assert!(found < 0.9, "{} from {start} s: {found}", method.name());
+        }
+    }
+}
+
+/// The farthest that anything in the layer moves from one moment to another, in heights of the layer.
+fn way(method: Method, from: &Uniforms, to: &Uniforms) -> f32 {
+    let apart = |a: &[f32], b: &[f32]| {
+        let turn = |a: f32, b: f32| (b - a) - (b - a).round();
+        turn(a[0], b[0]).hypot(turn(a[1], b[1]))
+    };
+    match method {
+        Method::Packed => {
+            let (a, b) = (&from.packed, &to.packed);
+            let photo = apart(&a.photo[1..], &b.photo[1..]) / a.photo[0];
+            let noise = apart(&a.noise[2..], &b.noise[2..]) / a.noise[0].hypot(a.noise[1]);
+            photo.max(noise)
+        }
+        Method::Octaves => {
+            let dome = |uniforms: &Uniforms| {
+                let octaves = uniforms.octaves;
+                [octaves.low, octaves.middle, octaves.high]
+            };
+            let domes = dome(from).into_iter().zip(dome(to));
+            domes
+                .map(|(a, b)| {
+                    // The shorter axis is the one along which a step of uv is most.
+                    let [east, south] = [a.axes[0].hypot(a.axes[1]), a.axes[2].hypot(a.axes[3])];
+                    apart(&a.place, &b.place) / east.min(south)
+                })
+                .fold(0.0, f32::max)
+        }
+        Method::Fbm => {
+            let offsets = |uniforms: &Uniforms| {
+                let fbm = uniforms.fbm;
+                [fbm.offsets_a, fbm.offsets_b, fbm.offsets_c, fbm.offsets_d]
+            };
+            let tiles_a_height = from.fbm.axes[0].hypot(from.fbm.axes[1]);
+            let (before, after) = (offsets(from), offsets(to));
+            let pairs = before
+                .as_flattened()
+                .chunks(2)
+                .zip(after.as_flattened().chunks(2));
+            pairs.map(|(a, b)| apart(a, b)).fold(0.0, f32::max) / tiles_a_height
+        }
+    }
+}
+
+/// The least distance of two neighbouring pixels on the layer, in its heights.
+fn finest_pixel(uniforms: &Uniforms) -> f32 {
+    let plane = |x: u32, y: u32| {
+        let pixel = glam::Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+        dome::intersect(camera::ray_of(&uniforms.camera, pixel).normalize()).plane
+    };
+    let [width, height] = SIZE;
+    (1..height)
+        .flat_map(|y| (1..width).map(move |x| (x, y)))
+        .map(|(x, y)| {
+            let here = plane(x, y);
+            here.distance(plane(x - 1, y))
+                .min(here.distance(plane(x, y - 1)))
+        })
+        .fold(f32::MAX, f32::min)
+}
+
+/// The largest change from a pixel to its neighbours.
+fn steepest(alpha: &[f32]) -> f32 {
+    let width = SIZE[0] as usize;
+    (width..alpha.len())
+        .filter(|i| i % width > 0)
+        .map(|i| (alpha[i] - alpha[i - 1]).hypot(alpha[i] - alpha[i - width]))
+        .fold(0.0, f32::max)
+}
+
+/// What reads may change by from one frame to the next beside their motion: two steps of 8-bit filtering, which may be
+/// off one way in one frame and the other way in the next, and what octaves form anew.
+fn change_of_reads(
+    facts: &Facts,
+    params: &SkyParams,
+    frame: &Frame,
+    seconds: f64,
+) -> [f32; MOST_READS] {
+    let filter = FILTER_STEP.map(|step| 2.0 * step);
+    if params.method != Method::Octaves {
+        return filter;
+    }
+    let share = FRAME_S as f32 / params.octaves.formation_interval_s;
+    let amount = octaves_map::most_change_of_amount(&facts.octave_states(params, seconds), share);
+    let channels = octaves_map::slopes(&frame.uniforms.octaves).map(|slope| slope * amount);
+    let formed = frame.in_order_of_reads(channels);
+    std::array::from_fn(|read| filter[read] + formed[read])
+}
+
+/// No pixel changes by more from frame to frame than what moves over it and forms in it.
+///
+/// That is the steepest slope of the picture times the way in pixels: twice, since a pixel's difference is the mean of a
+/// slope that may be all in half of it, and octaves that move apart may add their slopes. And what a change of each read
+/// is worth in opacity. Two of the moments are the ends of intervals of the first two octaves.
+#[test]
+fn nothing_jumps_from_frame_to_frame() {
+    let facts = Facts::new(pack::default_pack()).expect("the pack has every role");
+    let (mut film, twin) = (Film::new(), Twin::new(pack::default_pack()));
+    for method in Method::ALL {
+        for speed in [0.1, 1.0] {
+            let params = SkyParams {
+                speed,
+                ..params(method)
+            };
+            for seconds in [0.0, 60.0 - FRAME_S / 2.0, 22.918 - FRAME_S / 2.0, 1e5] {
+                let uniforms =
+                    [seconds, seconds + FRAME_S].map(|t| facts.uniforms(&params, &view(), t, 0.0));
+                let pixels = way(method, &uniforms[0], &uniforms[1]) / finest_pixel(&uniforms[0]);
+                let [before, after] =
+                    [seconds, seconds + FRAME_S].map(|t| film.alpha(&params, &view(), t));
+                let mut frame = twin.frame(&params, &view(), seconds);
+                let reads = change_of_reads(&facts, &params, &frame, seconds);
+                let reads = frame.worth_of_reads(reads, Frame::opacity);
+                let moved = 2.0 * steepest(&before) * pixels;
+                let case = format!("{} at speed {speed}, {seconds} s", method.name());
+                let mut closest = 0.0_f32;
+                for ((a, b), reads) in before.iter().zip(&after).zip(&reads) {
+                    // Two half floats of at most 2, off by 2^-11 of it, make an opacity.
+                    let (change, bound) = ((a - b).abs(), moved + reads.x + 4.0 / 1024.0);
+                    assert!(change < bound, "{case}: {change}, expected {bound}");
+                    closest = closest.max(change / bound);
+                }
+                println!("{case}: {pixels:.4} pixels on, {closest:.2} of what may be");
+            }
+        }
+    }
+}

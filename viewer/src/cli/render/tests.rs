@@ -1,0 +1,354 @@
+use super::*;
+use crate::cli::{Cli, Command};
+
+const BEGINNING: [&str; 5] = ["welkin-view", "render", "pack", "-o", "f.png"];
+
+fn error_of(args: &[&str]) -> String {
+    match Cli::read(BEGINNING.iter().chain(args)) {
+        Ok(_) => panic!("{args:?} was accepted"),
+        Err(error) => error.to_string(),
+    }
+}
+
+fn render_args(args: &[&str]) -> Box<RenderArgs> {
+    match Cli::read(BEGINNING.iter().chain(args)).map(|cli| cli.command) {
+        Ok(Some(Command::Render(render))) => render,
+        other => panic!("{args:?}: {other:?}"),
+    }
+}
+
+fn params(args: &[&str]) -> SkyParams {
+    render_args(args).view().params
+}
+
+#[test]
+fn no_option_is_the_default_sky() {
+    assert_eq!(params(&[]), SkyParams::default());
+    for method in Method::ALL {
+        let usual = SkyParams {
+            method,
+            ..SkyParams::default()
+        };
+        assert_eq!(params(&["--method", method.name()]), usual);
+    }
+}
+
+#[test]
+fn shares_outside_their_range_are_refused_by_name() {
+    for option in [
+        "--cover",
+        "--height",
+        "--density",
+        "--sunset",
+        "--speed",
+        "--time",
+        "--flare",
+        "--skybox",
+        "--upper",
+        "--sharpness",
+    ] {
+        for value in ["1.01", "-0.1", "nan", "inf", "half", ""] {
+            let error = error_of(&[option, value]);
+            assert!(error.contains(option), "{error}");
+            assert!(error.contains("expected a number from 0 to 1"), "{error}");
+        }
+    }
+}
+
+#[test]
+fn numbers_with_units_outside_their_range_are_refused() {
+    for (option, range, values) in [
+        (
+            "--azimuth",
+            "-360 to 360 degrees",
+            ["361", "-360.5", "nan", "inf", "east"],
+        ),
+        (
+            "--elevation",
+            "-90 to 90 degrees",
+            ["-91", "90.1", "nan", "inf", ""],
+        ),
+        (
+            "--fov",
+            "1 to 150 degrees",
+            ["0.5", "151", "nan", "inf", "-60"],
+        ),
+        (
+            "--at",
+            "0 to 1000000000 seconds",
+            ["-1", "2e9", "nan", "inf", "now"],
+        ),
+        (
+            "--east",
+            "-1000000 to 1000000 metres",
+            ["1000001", "-2e6", "nan", "inf", "far"],
+        ),
+        (
+            "--north",
+            "-1000000 to 1000000 metres",
+            ["1000001", "-2e6", "nan", "inf", ""],
+        ),
+        (
+            "--up",
+            "-1000000 to 1000000 metres",
+            ["1000001", "-2e6", "nan", "inf", "1m"],
+        ),
+        (
+            "--formation-interval",
+            "0.1 to 86400 seconds",
+            ["0", "86401", "nan", "inf", "-60"],
+        ),
+    ] {
+        for value in values {
+            let error = error_of(&["--method", "octaves", option, value]);
+            assert!(
+                error.contains(option) && error.contains(range),
+                "{value}: {error}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_octaves_are_a_whole_number_from_1_to_8() {
+    for value in ["0", "9", "-1", "2.5", "nan", "four", ""] {
+        let error = error_of(&["--method", "octaves", "--octaves", value]);
+        assert!(
+            error.contains("--octaves") && error.contains("from 1 to 8"),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn domes_and_colours_are_three_shares() {
+    for (method, option) in [
+        ("octaves", "--domes"),
+        ("fbm", "--lit"),
+        ("fbm", "--shaded"),
+    ] {
+        for value in [
+            "1,1", "1,1,1,1", "1,1,1.5", "-1,0,0", "nan,0,0", "0,inf,0", "1;1;1", ",,", "",
+        ] {
+            let error = error_of(&["--method", method, option, value]);
+            assert!(error.contains(option), "{error}");
+            assert!(error.contains("three numbers from 0 to 1"), "{error}");
+        }
+    }
+}
+
+#[test]
+fn sizes_are_two_positive_numbers() {
+    for value in [
+        "0x10", "10x0", "10", "10x", "axb", "-1x4", "99999x10", "10x10x10",
+    ] {
+        assert!(
+            error_of(&["--size", value]).contains("WIDTHxHEIGHT"),
+            "{value}"
+        );
+    }
+    assert_eq!(render_args(&["--size", "640x480"]).size, [640, 480]);
+}
+
+#[test]
+fn an_unknown_method_or_palette_is_answered_with_those_that_there_are() {
+    let error = error_of(&["--method", "sprites"]);
+    assert!(
+        error.contains("--method") && error.contains("packed, octaves, fbm"),
+        "{error}"
+    );
+    let error = error_of(&["--method", "fbm", "--palette", "pink"]);
+    assert!(
+        error.contains("--palette") && error.contains("fair, stormy"),
+        "{error}"
+    );
+}
+
+#[test]
+fn options_of_another_method_are_refused_and_say_whose_they_are() {
+    for (option, value, owners) in [
+        ("--upper", "0.5", vec!["packed"]),
+        ("--octaves", "4", vec!["octaves"]),
+        ("--formation-interval", "60", vec!["octaves"]),
+        ("--domes", "1,1,1", vec!["octaves"]),
+        ("--sharpness", "0.5", vec!["octaves", "fbm"]),
+        ("--palette", "fair", vec!["fbm"]),
+        ("--lit", "1,1,1", vec!["fbm"]),
+        ("--shaded", "0,0,0", vec!["fbm"]),
+    ] {
+        for method in Method::ALL.map(Method::name) {
+            let args = ["--method", method, option, value];
+            if owners.contains(&method) {
+                render_args(&args);
+                continue;
+            }
+            let error = error_of(&args);
+            let told = format!(
+                "{option} belongs to --method {}, and --method {method} does not use it",
+                owners.join(" or ")
+            );
+            assert!(
+                error.contains(&told) && error.contains("Usage: welkin-view render"),
+                "{error}"
+            );
+        }
+    }
+}
+
+/// An option of one method that is missing among the owners would be taken, and ignored, by the others.
+#[test]
+fn every_option_of_one_method_has_its_owners() {
+    let command = CloudArgs::augment_args(clap::Command::new("clouds"));
+    let options: Vec<&str> = command
+        .get_arguments()
+        .map(|a| a.get_id().as_str())
+        .collect();
+    assert_eq!(options, OWNERS.map(|(option, _)| option));
+}
+
+#[test]
+fn options_reach_the_view() {
+    let args = render_args(&[
+        "--cover",
+        "0.1",
+        "--height",
+        "0.2",
+        "--density",
+        "0.3",
+        "--sunset",
+        "0.4",
+        "--speed",
+        "0.5",
+        "--time",
+        "0.6",
+        "--upper",
+        "0.7",
+        "--flare",
+        "0.8",
+        "--skybox",
+        "0.9",
+        "--no-sun",
+        "--no-stars",
+        "--at",
+        "8",
+        "--azimuth",
+        "-90",
+        "--size",
+        "64x48",
+        "--east",
+        "10",
+        "--north",
+        "-20",
+        "--up",
+        "30",
+    ]);
+    let view = args.view();
+    let wanted = SkyParams {
+        cover: 0.1,
+        height: 0.2,
+        density: 0.3,
+        sunset: 0.4,
+        speed: 0.5,
+        time: 0.6,
+        upper_layer: 0.7,
+        flare: 0.8,
+        skybox: 0.9,
+        sun: false,
+        stars: false,
+        ..SkyParams::default()
+    };
+    assert_eq!(view.params, wanted);
+    assert_eq!(view.seconds, 8.0);
+    assert_eq!(view.camera.viewport_px, [64, 48]);
+    // +X is east, +Y up, and north is -Z.
+    assert_eq!(view.camera.position_m.to_array(), [10.0, 30.0, 20.0]);
+    // West is -X.
+    assert!(view.camera.rays().forward.x < -0.8);
+}
+
+#[test]
+fn options_of_octaves_reach_the_view() {
+    let args = [
+        "--method",
+        "octaves",
+        "--octaves",
+        "6",
+        "--sharpness",
+        "0.3",
+        "--formation-interval",
+        "12.5",
+        "--domes",
+        "0,0.5,1",
+    ];
+    let wanted = OctaveParams {
+        count: 6,
+        sharpness: 0.3,
+        formation_interval_s: 12.5,
+        domes: [0.0, 0.5, 1.0],
+    };
+    assert_eq!(params(&args).octaves, wanted);
+}
+
+#[test]
+fn colours_and_sharpness_override_the_palette() {
+    let fbm = |args: &[&str]| params(&[&["--method", "fbm"], args].concat()).fbm;
+    assert_eq!(fbm(&[]), FbmParams::FAIR);
+    assert_eq!(fbm(&["--palette", "stormy"]), FbmParams::STORMY);
+    let args = [
+        "--palette",
+        "stormy",
+        "--lit",
+        "0.9,0.8,0.7",
+        "--sharpness",
+        "0.6",
+    ];
+    let wanted = FbmParams {
+        lit: [0.9, 0.8, 0.7],
+        sharpness: 0.6,
+        ..FbmParams::STORMY
+    };
+    assert_eq!(fbm(&args), wanted);
+    assert_eq!(fbm(&["--shaded", "0,0,0.1"]).shaded, [0.0, 0.0, 0.1]);
+}
+
+/// What the command line takes, the sky takes as it is.
+#[test]
+fn the_ends_of_every_range_are_in_the_sky_s_ranges() {
+    let ends = |method: &str, numbers: &[(&str, [&str; 2])]| {
+        for end in [0, 1] {
+            let mut args = vec!["--method", method];
+            args.extend(
+                numbers
+                    .iter()
+                    .flat_map(|(option, range)| [option, range[end]]),
+            );
+            let params = params(&args);
+            assert_eq!(params.check(), Ok(()), "{args:?}");
+        }
+    };
+    const UNIT: [&str; 2] = ["0", "1"];
+    const THREE: [&str; 2] = ["0,0,0", "1,1,1"];
+    let shares = [
+        "--cover",
+        "--height",
+        "--density",
+        "--sunset",
+        "--speed",
+        "--time",
+        "--flare",
+        "--skybox",
+    ];
+    let shares = shares.map(|option| (option, UNIT));
+    ends("packed", &[&shares[..], &[("--upper", UNIT)]].concat());
+    let octaves = [
+        ("--octaves", ["1", "8"]),
+        ("--sharpness", UNIT),
+        ("--formation-interval", ["0.1", "86400"]),
+        ("--domes", THREE),
+    ];
+    ends("octaves", &octaves);
+    ends(
+        "fbm",
+        &[("--sharpness", UNIT), ("--lit", THREE), ("--shaded", THREE)],
+    );
+}

@@ -1,0 +1,109 @@
+//! What the options take: one function a kind of value, whose error tells the range.
+
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+
+use welkin_runtime::params::{FORMATION_INTERVAL_S, MAX_OCTAVES};
+
+/// Farther than this from the origin, clouds that are kilometres high say nothing of the place any more.
+const PLACE_RANGE_M: f64 = 1e6;
+
+/// Sides above this are no texture on any GPU; what the GPU at hand takes is checked when it is known.
+const MAX_SIDE: u32 = 32_768;
+
+pub fn unit(text: &str) -> Result<f32, String> {
+    within(text, 0.0..=1.0, "").map(|v| v as f32)
+}
+
+pub fn azimuth_deg(text: &str) -> Result<f32, String> {
+    within(text, -360.0..=360.0, " degrees").map(|v| v as f32)
+}
+
+pub fn elevation_deg(text: &str) -> Result<f32, String> {
+    within(text, -90.0..=90.0, " degrees").map(|v| v as f32)
+}
+
+pub fn fov_deg(text: &str) -> Result<f32, String> {
+    within(text, 1.0..=150.0, " degrees").map(|v| v as f32)
+}
+
+pub fn place_m(text: &str) -> Result<f32, String> {
+    within(text, -PLACE_RANGE_M..=PLACE_RANGE_M, " metres").map(|v| v as f32)
+}
+
+/// 1e9 seconds are 31 years: longer than any animation, and still exact to a microsecond in 64 bits.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    within(text, 0.0..=1e9, " seconds")
+}
+
+/// In single precision, as the sky takes it: so the ends of the range belong to it.
+pub fn formation_interval_s(text: &str) -> Result<f32, String> {
+    let [low, high] = FORMATION_INTERVAL_S;
+    within(text, low..=high, " seconds")
+}
+
+pub fn octaves(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(count) if (1..=MAX_OCTAVES).contains(&count) => Ok(count),
+        _ => Err(format!("expected a whole number from 1 to {MAX_OCTAVES}")),
+    }
+}
+
+/// Three numbers from 0 to 1, between commas.
+pub fn three_units(text: &str) -> Result<[f32; 3], String> {
+    let numbers: Option<Vec<f32>> = text.split(',').map(|part| unit(part.trim()).ok()).collect();
+    numbers
+        .and_then(|numbers| numbers.try_into().ok())
+        .ok_or_else(|| "expected three numbers from 0 to 1, such as 0.2,0.5,1".to_string())
+}
+
+pub fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text
+        .split_once('x')
+        .and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    match sides {
+        Some(size) if size.iter().all(|side| (1..=MAX_SIDE).contains(side)) => Ok(size),
+        _ => Err(format!(
+            "expected WIDTHxHEIGHT, each from 1 to {MAX_SIDE}, such as 1600x1200"
+        )),
+    }
+}
+
+fn within<T: FromStr + PartialOrd + std::fmt::Display>(
+    text: &str,
+    range: RangeInclusive<T>,
+    unit: &str,
+) -> Result<T, String> {
+    match text.parse() {
+        // Not a number is in no range.
+        Ok(value) if range.contains(&value) => Ok(value),
+        _ => Err(format!(
+            "expected a number from {} to {}{unit}",
+            range.start(),
+            range.end()
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ends_of_a_range_belong_to_it() {
+        assert_eq!([unit("0"), unit("1")], [Ok(0.0), Ok(1.0)]);
+        assert_eq!(
+            [formation_interval_s("0.1"), formation_interval_s("86400")],
+            FORMATION_INTERVAL_S.map(Ok)
+        );
+        assert_eq!([octaves("1"), octaves("8")], [Ok(1), Ok(MAX_OCTAVES)]);
+        assert_eq!([place_m("-1e6"), place_m("1e6")], [Ok(-1e6), Ok(1e6)]);
+        assert_eq!(size("1x32768"), Ok([1, MAX_SIDE]));
+    }
+
+    #[test]
+    fn three_numbers_stand_between_commas() {
+        assert_eq!(three_units("0,0.5,1"), Ok([0.0, 0.5, 1.0]));
+        assert_eq!(three_units("0.1, 0.2, 0.3"), Ok([0.1, 0.2, 0.3]));
+    }
+}

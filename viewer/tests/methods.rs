@@ -1,0 +1,194 @@
+//! What `welkin-view render` knows of the methods, of sun, stars, flare and skybox: every option says something.
+
+// The lint's exception for tests does not reach their helpers.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::path::{Path, PathBuf};
+
+use common::{RECIPE, bake, failed, pack, render, render_of, run, view};
+
+const METHODS: [&str; 3] = ["packed", "octaves", "fbm"];
+
+/// Draws a frame with these words, and one with each of the options beside them: they differ.
+fn each_option_changes(words: &[&str], options: &[&[&str]]) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("frame.png");
+    let without = render(&file, words);
+    for option in options {
+        let with = render(&file, &[words, option].concat());
+        // Compared here, since bytes of pictures say nothing when they are printed.
+        assert!(with != without, "{words:?} {option:?}");
+    }
+}
+
+#[test]
+fn every_method_draws_clouds_of_its_own_and_the_same_every_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("frame.png");
+    let clear = ["--cover", "0"];
+    let frames = METHODS.map(|method| {
+        let words = ["--method", method, "--at", "100"];
+        let frame = render(&file, &words);
+        assert_eq!(render(&file, &words), frame, "{method}");
+        assert_ne!(
+            render(&file, &[&words[..], &clear].concat()),
+            frame,
+            "{method}"
+        );
+        frame
+    });
+    assert_ne!(frames[0], frames[1]);
+    assert_ne!(frames[1], frames[2]);
+    assert_ne!(frames[0], frames[2]);
+}
+
+#[test]
+fn the_six_parameters_are_every_method_s() {
+    for method in ["octaves", "fbm"] {
+        let day = ["--method", method, "--at", "60"];
+        let options: [&[&str]; 5] = [
+            &["--cover", "0.8"],
+            &["--height", "0.3"],
+            &["--density", "0.9"],
+            &["--time", "0.35"],
+            &["--speed", "1"],
+        ];
+        each_option_changes(&day, &options);
+        each_option_changes(&day[..2], &[&["--at", "600"]]);
+        let evening = ["--method", method, "--time", "0.74", "--azimuth", "270"];
+        each_option_changes(&evening, &[&["--sunset", "1"]]);
+    }
+}
+
+#[test]
+fn options_of_octaves_change_its_clouds() {
+    let options: [&[&str]; 5] = [
+        &["--octaves", "2"],
+        &["--octaves", "8"],
+        &["--sharpness", "0.5"],
+        &["--formation-interval", "7"],
+        &["--domes", "1,0,0"],
+    ];
+    each_option_changes(&["--method", "octaves", "--at", "30"], &options);
+}
+
+#[test]
+fn options_of_fbm_change_its_clouds() {
+    let options: [&[&str]; 4] = [
+        &["--palette", "stormy"],
+        &["--lit", "1,0.5,0.5"],
+        &["--shaded", "0,0,0.2"],
+        &["--sharpness", "1"],
+    ];
+    each_option_changes(&["--method", "fbm"], &options);
+}
+
+#[test]
+fn sun_flare_and_stars_can_be_left_out() {
+    let towards_the_sun = ["--cover", "0", "--azimuth", "180", "--elevation", "50"];
+    each_option_changes(
+        &towards_the_sun,
+        &[&["--no-sun"], &["--flare", "0"], &["--flare", "0.5"]],
+    );
+    // As many stars as a small texture has: a wide view of a clear night holds some.
+    let night = ["--cover", "0", "--time", "0", "--fov", "120"];
+    each_option_changes(&night, &[&["--no-stars"]]);
+}
+
+#[test]
+fn clouds_move_when_the_viewer_does_and_the_sky_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("frame.png");
+    for method in METHODS {
+        let words = ["--method", method];
+        let places: [&[&str]; 2] = [&["--east", "-300"], &["--north", "300"]];
+        each_option_changes(&words, &places);
+        let clear = [&words[..], &["--cover", "0"]].concat();
+        let here = render(&file, &clear);
+        assert_eq!(
+            render(&file, &[&clear[..], places[0]].concat()),
+            here,
+            "{method}"
+        );
+    }
+}
+
+/// A pack with a red panorama around it.
+fn pack_with_skybox(folder: &Path) -> PathBuf {
+    let red = image::RgbImage::from_pixel(64, 32, image::Rgb([250, 10, 10]));
+    red.save(folder.join("red.png")).unwrap();
+    let recipe = format!("{RECIPE}[skybox]\nfile = \"red.png\"\n");
+    bake("skybox", &recipe, Some(folder))
+}
+
+#[test]
+fn a_skybox_stands_behind_the_clouds_as_far_as_it_is_told_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("frame.png");
+    let pack_with_skybox = pack_with_skybox(folder.path());
+    let redness = |words: &[&str]| {
+        let words = [&["--cover", "0"], words].concat();
+        let frame = render_of(&pack_with_skybox, &file, &words);
+        let picture = image::load_from_memory(&frame).unwrap().into_rgb8();
+        let sum =
+            |channel: usize| -> i64 { picture.pixels().map(|p| i64::from(p.0[channel])).sum() };
+        sum(0) - sum(2)
+    };
+    let [none, half, whole] =
+        [["--skybox", "0"], ["--skybox", "0.5"], ["--skybox", "1"]].map(|s| redness(&s));
+    // The day's sky is blue, the panorama red, and the half of both lies between.
+    assert!(
+        none < 0 && none < half && half < whole && whole > 0,
+        "{none} {half} {whole}"
+    );
+    assert_eq!(redness(&[]), whole);
+}
+
+#[test]
+fn a_skybox_that_the_pack_has_not_is_not_passed_over_in_silence() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = view(&["render", "--skybox", "0.5", "-o"]);
+    command.arg(folder.path().join("frame.png")).arg(pack());
+    failed(&run(command), 1, &["has no skybox", "[skybox]"]);
+    assert_eq!(folder.path().read_dir().unwrap().count(), 0);
+}
+
+#[test]
+fn wrong_options_of_a_method_are_told_and_leave_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let attempts: [(&[&str], &[&str]); 6] = [
+        (
+            &["--octaves", "4"],
+            &[
+                "--octaves belongs to --method octaves",
+                "packed does not use it",
+            ],
+        ),
+        (
+            &["--method", "octaves", "--octaves", "9"],
+            &["--octaves", "1 to 8"],
+        ),
+        (
+            &["--method", "octaves", "--formation-interval", "0"],
+            &["--formation-interval", "0.1 to 86400 seconds"],
+        ),
+        (
+            &["--method", "octaves", "--palette", "stormy"],
+            &["--palette belongs to --method fbm"],
+        ),
+        (
+            &["--method", "fbm", "--lit", "1,nan,1"],
+            &["--lit", "three numbers"],
+        ),
+        (&["--east", "nan"], &["--east", "metres"]),
+    ];
+    for (words, told) in attempts {
+        let mut command = view(&["render", "-o"]);
+        command.arg(folder.path().join("frame.png")).arg(pack());
+        command.args(words);
+        failed(&run(command), 2, told);
+    }
+    assert_eq!(folder.path().read_dir().unwrap().count(), 0);
+}
