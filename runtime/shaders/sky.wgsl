@@ -8,7 +8,8 @@ struct SkyUniforms {
     overcast: vec4f, // rgb: radiance of a shut sky; w: how far the sky is shut
 }
 
-fn sky_radiance(direction: vec3f) -> vec3f {
+// The gradient's clear sky along a unit direction.
+fn gradient_light(direction: vec3f) -> vec3f {
     let sky = uniforms.sky;
     let up = max(direction.y, 0.0);
     let uv = vec2f(sky.gradient.x, sky.gradient.y + sky.gradient.z * sqrt(up));
@@ -23,7 +24,17 @@ fn sky_radiance(direction: vec3f) -> vec3f {
         let side = 0.5 + 0.5 * dot(direction.xz, uniforms.clouds.gradient.xy);
         radiance += sky.band.rgb * (side * side * exp2(-sky.band.w * abs(direction.y)));
     }
-    radiance = mix(radiance, sky.overcast.rgb, sky.overcast.w);
+    return radiance;
+}
+
+fn sky_radiance(direction: vec3f) -> vec3f {
+    var radiance: vec3f;
+    if PEREZ {
+        radiance = perez_light(direction);
+    } else {
+        radiance = gradient_light(direction);
+    }
+    radiance = mix(radiance, uniforms.sky.overcast.rgb, uniforms.sky.overcast.w);
     if direction.y < 0.0 {
         radiance *= GROUND_FLOOR + (1.0 - GROUND_FLOOR) / (1.0 - GROUND_FALL * direction.y);
     }

@@ -3,6 +3,7 @@
 struct Uniforms {
     camera: CameraUniforms,
     sky: SkyUniforms,
+    perez: PerezUniforms,
     sun: SunUniforms,
     stars: StarUniforms,
     galaxy: GalaxyUniforms,

@@ -21,8 +21,8 @@
 use welkin_pack::Texture;
 
 use crate::fbm_pack;
+use crate::layouts::Layouts;
 use crate::map::{self, Map};
-use crate::pipeline::Layouts;
 
 /// Texels a side.
 pub const SIDE: u32 = 512;

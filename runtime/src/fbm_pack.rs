@@ -17,8 +17,8 @@
 
 use glam::{DVec2, Vec3};
 
+use crate::layouts::Layouts;
 use crate::map;
-use crate::pipeline::Layouts;
 
 /// How far the sun goes, in azimuth or elevation, before octaves are packed anew: 1/16 degree, in radians.
 pub const CELL_RAD: f64 = std::f64::consts::PI / 180.0 / 16.0;

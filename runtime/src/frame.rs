@@ -5,10 +5,11 @@ use welkin_pack::{Image, Pack, Role, Texture};
 use crate::clouds::CloudView;
 use crate::fbm_map::Octaves;
 use crate::light::Light;
+use crate::oktas::Distributions;
 use crate::uniforms::{CameraUniforms, Uniforms, vec4};
 use crate::{
     Camera, Method, SkyError, SkyParams, clouds, fbm, flares, galaxy, octaves, octaves_map, packed,
-    sky, skybox, stars, sun, tonemap,
+    perez, sky, skybox, stars, sun, tonemap,
 };
 
 /// What the CPU keeps of a pack between frames.
@@ -36,6 +37,8 @@ pub struct Facts {
     pub noise: Vec<u8>,
     /// The octaves of smooth noise.
     pub fbm: Octaves,
+    /// How what makes opacity is distributed.
+    pub distributions: Distributions,
 }
 
 impl Facts {
@@ -45,10 +48,13 @@ impl Facts {
     /// [`SkyError::MissingTexture`] if the pack lacks a texture.
     pub fn new(pack: &Pack) -> Result<Facts, SkyError> {
         let side = |t: &Texture| (t.width, t.levels.len());
+        let clouds = texture(pack, Role::Clouds)?;
+        let smooth = texture(pack, Role::Fbm)?;
+        let fbm = Octaves::new(smooth);
         Ok(Facts {
             noon_elevation_rad: pack.manifest().noon_elevation_rad,
             sky: texture(pack, Role::Sky)?.image(0, 0),
-            clouds_texels: texture(pack, Role::Clouds)?.width,
+            clouds_texels: clouds.width,
             cloud_means: cloud_means(pack)?,
             stars: side(texture(pack, Role::Stars)?),
             sun: side(texture(pack, Role::Sun)?),
@@ -56,7 +62,8 @@ impl Facts {
             skybox: pack.texture(Role::Skybox).map(side),
             seed: pack.manifest().seed,
             noise: texture(pack, Role::Octaves)?.levels.concat(),
-            fbm: Octaves::new(texture(pack, Role::Fbm)?),
+            distributions: Distributions::new(&clouds.image(0, 0), smooth, &fbm),
+            fbm,
         })
     }
 
@@ -116,6 +123,7 @@ impl Facts {
         Uniforms {
             camera,
             sky: sky::uniforms(&light, &self.sky, params.time, night, overcast),
+            perez: perez::uniforms(&params.perez, params.sky, &light),
             sun: sun::uniforms(&light, &rays, self.sun.0, self.sun.1, pixel, params.sun),
             stars: stars::uniforms(self.stars.0, self.stars.1, pixel_rad, night, seconds),
             galaxy: galaxy::uniforms(night, self.clouds_texels, pixel),

@@ -24,7 +24,9 @@
 //! ```
 
 pub mod camera;
+pub mod cie;
 pub mod clouds;
+mod distribution;
 pub mod dome;
 pub mod error;
 pub mod fbm;
@@ -33,12 +35,15 @@ pub mod fbm_pack;
 pub mod flares;
 pub mod frame;
 pub mod galaxy;
+mod layouts;
 pub mod light;
 pub mod map;
 pub mod octaves;
 pub mod octaves_map;
+pub mod oktas;
 pub mod packed;
 pub mod params;
+pub mod perez;
 mod pipeline;
 pub mod renderer;
 pub mod shader;
@@ -52,5 +57,6 @@ mod upload;
 
 pub use camera::Camera;
 pub use error::SkyError;
-pub use params::{FbmParams, Method, OctaveParams, ParamError, SkyParams};
+pub use params::{FbmParams, Method, OctaveParams, ParamError, SkyModel, SkyParams};
+pub use perez::{PerezParams, PerezShape};
 pub use renderer::{DepthConfig, Sky, SkyConfig};

@@ -4,7 +4,7 @@
 //! The map is drawn, then each level is averaged from the one above it: one pass each, down to 32 texels, for the dome
 //! names the level that it reads. A map tiles.
 
-use crate::pipeline::Layouts;
+use crate::layouts::Layouts;
 
 /// Levels end at this many texels a side: a pixel of the smallest pictures covers no more.
 pub const LEAST_SIDE: u32 = 32;

@@ -25,9 +25,9 @@
 use half::f16;
 
 use crate::SkyParams;
+use crate::layouts::Layouts;
 use crate::map::{self, Map};
 use crate::params::MAX_OCTAVES;
-use crate::pipeline::Layouts;
 
 /// Texels a side of an octave's noise.
 pub const NOISE_SIDE: u32 = 32;

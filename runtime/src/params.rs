@@ -1,5 +1,7 @@
 //! The parameters of Roden and Parberry, those of each method, and a few of our own.
 
+use crate::PerezParams;
+
 /// Which published system makes the clouds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Method {
@@ -84,6 +86,29 @@ impl Default for FbmParams {
     }
 }
 
+/// How the clear sky is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum SkyModel {
+    /// The pack's day gradient, with light scattered around the sun. See [`crate::sky`].
+    #[default]
+    Gradient,
+    /// The distribution of Perez and others, in colour, as bright as the gradient. See [`crate::perez`].
+    Perez,
+}
+
+impl SkyModel {
+    /// Every model, in the order of their numbers.
+    pub const ALL: [SkyModel; 2] = [SkyModel::Gradient, SkyModel::Perez];
+
+    /// The name on command lines and in settings.
+    pub const fn name(self) -> &'static str {
+        match self {
+            SkyModel::Gradient => "gradient",
+            SkyModel::Perez => "perez",
+        }
+    }
+}
+
 /// A parameter out of its range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{key} is {found}, expected {expected}")]
@@ -123,6 +148,10 @@ pub struct SkyParams {
     pub exposure: f32,
     /// Whether targets of few bits are dithered by half a step.
     pub dither: bool,
+    /// How the clear sky is computed.
+    pub sky: SkyModel,
+    /// Of [`SkyModel::Perez`].
+    pub perez: PerezParams,
     /// Which system makes the clouds.
     pub method: Method,
     /// Of [`Method::Octaves`].
@@ -161,6 +190,8 @@ impl Default for SkyParams {
             upper_layer: 0.0,
             exposure: 1.0,
             dither: true,
+            sky: SkyModel::Gradient,
+            perez: PerezParams::default(),
             method: Method::Packed,
             octaves: OctaveParams::default(),
             fbm: FbmParams::default(),
@@ -212,6 +243,7 @@ impl SkyParams {
             };
         }
         self.octaves.count = self.octaves.count.clamp(1, MAX_OCTAVES);
+        self.perez.shape = self.perez.shape.clamped();
         self
     }
 
@@ -239,11 +271,11 @@ impl SkyParams {
                 expected: format!("a number from 1 to {MAX_OCTAVES}"),
             });
         }
-        Ok(())
+        self.perez.shape.check()
     }
 
     /// Every number that has a range.
-    fn numbers(&mut self) -> [Ranged<'_>; 22] {
+    fn numbers(&mut self) -> [Ranged<'_>; 23] {
         const UNIT: [f32; 2] = [0.0, 1.0];
         let usual = SkyParams::default();
         let [low, middle, high] = &mut self.octaves.domes;
@@ -271,6 +303,12 @@ impl SkyParams {
             ),
             ("flare", &mut self.flare, usual.flare, UNIT),
             ("skybox", &mut self.skybox, usual.skybox, UNIT),
+            (
+                "perez.turbidity",
+                &mut self.perez.turbidity,
+                usual.perez.turbidity,
+                crate::perez::TURBIDITY,
+            ),
             (
                 "octaves.sharpness",
                 &mut self.octaves.sharpness,
@@ -305,6 +343,7 @@ impl SkyParams {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::PerezShape;
 
     #[test]
     fn clamps_what_is_out_of_range_and_replaces_what_is_no_number() {
@@ -345,6 +384,22 @@ mod tests {
         assert_eq!(
             told(&|p| p.fbm.shaded[2] = f32::NAN),
             "fbm.shaded[2] is NaN, expected a number from 0 to 1"
+        );
+        assert_eq!(
+            told(&|p| p.perez.turbidity = 1.0),
+            "perez.turbidity is 1, expected a number from 1.7 to 10"
+        );
+        assert_eq!(
+            told(&|p| p.perez.shape = PerezShape::Cie(16)),
+            "perez.shape.cie is 16, expected a number from 1 to 15"
+        );
+        assert_eq!(
+            told(&|p| p.perez.shape = PerezShape::Custom([0.0, 0.0, 0.0, -1.0, 0.0])),
+            "perez.shape.b is 0, expected a number from -5 to -0.05"
+        );
+        assert_eq!(
+            told(&|p| p.perez.shape = PerezShape::Custom([0.0, -1.0, f32::NAN, -1.0, 0.0])),
+            "perez.shape.c is NaN, expected a number from 0 to 30"
         );
         assert!(told(&|p| p.octaves.domes[1] = 1.5).starts_with("octaves.domes[1] is 1.5"));
         assert!(told(&|p| p.cover = -0.1).starts_with("cover is -0.1"));

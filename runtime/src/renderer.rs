@@ -9,14 +9,13 @@ use welkin_pack::{Pack, Role};
 use wgpu::util::DeviceExt;
 
 use crate::frame::Facts;
-use crate::pipeline::{
-    Layouts, SKYBOX_BINDING, TEXTURES, Variant, flare_pipeline, output, pipelines,
-};
+use crate::layouts::{Layouts, SKYBOX_BINDING, TEXTURES};
+use crate::pipeline::{Variant, flare_pipeline, output, pipelines};
 use crate::shader::{Build, compose};
 use crate::uniforms::Uniforms;
 use crate::upload::{upload, upload_skybox};
 use crate::{
-    Camera, Method, SkyError, SkyParams, dome, fbm_map, flares, map, octaves_map, tonemap,
+    Camera, Method, SkyError, SkyModel, SkyParams, dome, fbm_map, flares, map, octaves_map, tonemap,
 };
 
 /// What the sky is drawn onto.
@@ -65,7 +64,8 @@ pub struct Sky {
 /// What only one method needs.
 #[derive(Debug)]
 struct Program {
-    pipelines: [wgpu::RenderPipeline; 4],
+    /// Of each sky model, at its place in [`SkyModel::ALL`].
+    pipelines: [Option<[wgpu::RenderPipeline; 4]>; SkyModel::ALL.len()],
     flare: Option<wgpu::RenderPipeline>,
     map: OwnMap,
     module: wgpu::ShaderModule,
@@ -83,6 +83,7 @@ enum OwnMap {
 #[derive(Clone, Copy, Debug)]
 struct Prepared {
     method: Method,
+    sky: SkyModel,
     variant: Variant,
     flare: bool,
 }
@@ -137,6 +138,7 @@ impl Sky {
             output: output(&config, features)?,
             reversed_depth: config.depth.is_some_and(|d| d.reversed),
             method: Method::Packed,
+            sky: SkyModel::Gradient,
             skybox: facts.skybox.is_some(),
         };
         let layouts = Layouts::new(device);
@@ -173,9 +175,9 @@ impl Sky {
         })
     }
 
-    /// Compiles a method's shader and makes its map, so that its first frame need not.
-    pub fn load(&mut self, method: Method) {
-        self.program(method, octaves_map::DEFAULT_COUNT);
+    /// Compiles the shader of a method with a sky model and makes the method's map, so that their first frame need not.
+    pub fn load(&mut self, method: Method, sky: SkyModel) {
+        self.program(method, sky, octaves_map::DEFAULT_COUNT);
     }
 
     /// Computes a frame: writes its uniforms and records the off-screen passes of its method into `encoder`, before the
@@ -199,7 +201,7 @@ impl Sky {
             _ => Vec::new(),
         };
         let shared = self.shared.clone();
-        let program = self.program(params.method, params.octaves.count);
+        let program = self.program(params.method, params.sky, params.octaves.count);
         match &mut program.map {
             OwnMap::None => {}
             OwnMap::Octaves(pass) => pass.record(queue, encoder, &shared, &states),
@@ -210,9 +212,15 @@ impl Sky {
         }
         self.prepared = Some(Prepared {
             method: params.method,
+            sky: params.sky,
             variant: Variant::of(&uniforms),
             flare: uniforms.flares.light[0] > 0.0,
         });
+    }
+
+    /// The cover that shows a number of oktas: see [`Facts::cover_for_oktas`].
+    pub fn cover_for_oktas(&self, params: &SkyParams, oktas: f32) -> f32 {
+        self.facts.cover_for_oktas(params, oktas)
     }
 
     /// Draws the prepared frame into a pass whose attachments are as the configuration said.
@@ -222,11 +230,14 @@ impl Sky {
         let Some((prepared, program)) = self.current() else {
             return;
         };
+        let Some(pipelines) = &program.pipelines[prepared.sky as usize] else {
+            return;
+        };
         pass.set_bind_group(0, &self.shared, &[]);
         if let Some(map) = program.map.map() {
             pass.set_bind_group(1, &map.group, &[]);
         }
-        pass.set_pipeline(&program.pipelines[prepared.variant.index()]);
+        pass.set_pipeline(&pipelines[prepared.variant.index()]);
         match &self.dome {
             None => pass.draw(0..3, 0..1),
             Some(dome) => {
@@ -267,23 +278,29 @@ impl Sky {
         Some((prepared, self.programs[prepared.method as usize].as_ref()?))
     }
 
-    /// The program of a method, made if it is not there yet; `octaves` is how many [`Method::Octaves`] sums.
-    fn program(&mut self, method: Method, octaves: u32) -> &mut Program {
-        let (device, layouts) = (&self.device, &self.layouts);
-        let slot = &mut self.programs[method as usize];
-        let new = || {
-            let build = Build {
-                method,
-                ..self.build
-            };
-            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+    /// The program of a method with the pipelines of a sky model, made if they are not there yet; `octaves` is how many
+    /// [`Method::Octaves`] sums.
+    fn program(&mut self, method: Method, sky: SkyModel, octaves: u32) -> &mut Program {
+        let (device, layouts, config) = (&self.device, &self.layouts, &self.config);
+        let build = Build {
+            method,
+            sky,
+            ..self.build
+        };
+        let module = || {
+            device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(method.name()),
                 source: wgpu::ShaderSource::Wgsl(compose(build).into()),
-            });
-            let config = &self.config;
-            let mesh = self.dome.is_some();
+            })
+        };
+        let mesh = self.dome.is_some();
+        let slot = &mut self.programs[method as usize];
+        let new = || {
+            let module = module();
+            let mut models = [const { None }; SkyModel::ALL.len()];
+            models[sky as usize] = Some(pipelines(device, config, &module, layouts, method, mesh));
             Program {
-                pipelines: pipelines(device, config, &module, layouts, method, mesh),
+                pipelines: models,
                 flare: self
                     .blends
                     .then(|| flare_pipeline(device, config, &module, layouts, method)),
@@ -297,6 +314,8 @@ impl Sky {
             }
         };
         let program = slot.get_or_insert_with(new);
+        program.pipelines[sky as usize]
+            .get_or_insert_with(|| pipelines(device, config, &module(), layouts, method, mesh));
         let fits = |map: &OwnMap| matches!(map, OwnMap::Octaves(pass) if pass.fits(octaves));
         if method == Method::Octaves && !fits(&program.map) {
             let pass = octaves_map::Pass::new(device, &program.module, layouts, octaves);

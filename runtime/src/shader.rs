@@ -6,15 +6,16 @@ use glam::Vec3;
 use welkin_pack::mapping::{STAR_TILE_SIDE, STAR_TILE_START};
 
 use crate::{
-    Method, clouds, dome, fbm, fbm_map, galaxy, octaves, octaves_map, packed, sky, stars, sun,
-    tonemap,
+    Method, SkyModel, clouds, dome, fbm, fbm_map, galaxy, octaves, octaves_map, packed, perez, sky,
+    stars, sun, tonemap,
 };
 
 /// The WGSL files in the order in which they are joined.
-const PARTS: [&str; 19] = [
+const PARTS: [&str; 20] = [
     include_str!("../shaders/uniforms.wgsl"),
     include_str!("../shaders/camera.wgsl"),
     include_str!("../shaders/dome.wgsl"),
+    include_str!("../shaders/perez.wgsl"),
     include_str!("../shaders/sky.wgsl"),
     include_str!("../shaders/sun.wgsl"),
     include_str!("../shaders/stars.wgsl"),
@@ -58,6 +59,8 @@ pub struct Build {
     pub reversed_depth: bool,
     /// Which method's clouds `cloud_layer` gives.
     pub method: Method,
+    /// How `sky_radiance` computes the clear sky.
+    pub sky: SkyModel,
     /// Whether the pack has a skybox.
     pub skybox: bool,
 }
@@ -88,13 +91,17 @@ fn constants(build: Build) -> String {
     }
     let _ = writeln!(text, "const OUTPUT = {}u;", build.output as u32);
     let _ = writeln!(text, "const SKYBOX = {};", build.skybox);
+    let _ = writeln!(text, "const PEREZ = {};", build.sky == SkyModel::Perez);
     let numbers = [
         ("FAR_DEPTH", if build.reversed_depth { 0.0 } else { 1.0 }),
+        ("PI", std::f32::consts::PI),
         ("TAU", std::f32::consts::TAU),
         ("SQRT_2", std::f32::consts::SQRT_2),
         ("CLOUD_SPHERE_RADIUS", dome::CLOUD_SPHERE_RADIUS),
         ("GROUND_FLOOR", sky::GROUND_FLOOR),
         ("GROUND_FALL", sky::GROUND_FALL),
+        ("PEREZ_LEAST_COSINE", perez::LEAST_COSINE),
+        ("PEREZ_TO_DAYLIGHT", perez::TO_DAYLIGHT),
         ("SUN_HORIZON", sun::HORIZON),
         ("STAR_TILE_SIDE", STAR_TILE_SIDE),
         ("STAR_RATE_STEPS", 255.0),
@@ -139,12 +146,18 @@ fn constants(build: Build) -> String {
     ] {
         let _ = writeln!(text, "const {name} = vec2f({x:?}, {y:?});");
     }
-    let [x, y, z, w] = fbm_map::DEPTHS;
-    let _ = writeln!(
-        text,
-        "const FBM_DEPTHS = vec4f({x:?}, {y:?}, {z:?}, {w:?});"
-    );
-    for (name, colour) in [("STAR_WARM", stars::WARM), ("STAR_COLD", stars::COLD)] {
+    for (name, [x, y, z, w]) in [("FBM_DEPTHS", fbm_map::DEPTHS), ("PEREZ_ACOS", perez::ACOS)] {
+        let _ = writeln!(text, "const {name} = vec4f({x:?}, {y:?}, {z:?}, {w:?});");
+    }
+    let [rgb_x, rgb_y, rgb_z] = perez::RGB_OF_XYZ;
+    for (name, colour) in [
+        ("STAR_WARM", stars::WARM),
+        ("STAR_COLD", stars::COLD),
+        ("PEREZ_DAYLIGHT", perez::DAYLIGHT.into()),
+        ("PEREZ_RGB_X", rgb_x),
+        ("PEREZ_RGB_Y", rgb_y),
+        ("PEREZ_RGB_Z", rgb_z),
+    ] {
         let Vec3 { x, y, z } = colour;
         let _ = writeln!(text, "const {name} = vec3f({x:?}, {y:?}, {z:?});");
     }
@@ -171,11 +184,15 @@ mod tests {
         let mut builds = Vec::new();
         for output in Output::ALL {
             for method in Method::ALL {
-                for (reversed_depth, skybox) in [(false, false), (true, true)] {
+                for (reversed_depth, sky, skybox) in [
+                    (false, SkyModel::Gradient, false),
+                    (true, SkyModel::Perez, true),
+                ] {
                     builds.push(Build {
                         output,
                         reversed_depth,
                         method,
+                        sky,
                         skybox,
                     });
                 }
@@ -297,6 +314,7 @@ mod tests {
             band,
             overcast
         );
+        assert_same_layout!(module, PerezUniforms, sun, a, b, c, d, e, base, zenith);
         assert_same_layout!(module, SunUniforms, right, up, disc, glow);
         assert_same_layout!(module, StarUniforms, field);
         assert_same_layout!(module, GalaxyUniforms, light);
@@ -344,8 +362,8 @@ mod tests {
         assert_same_layout!(module, FlareUniforms, light, places, colours, cells);
         assert_same_layout!(module, TonemapUniforms, display);
         assert_same_layout!(
-            module, Uniforms, camera, sky, sun, stars, galaxy, skybox, clouds, packed, octaves,
-            fbm, flares, tonemap
+            module, Uniforms, camera, sky, perez, sun, stars, galaxy, skybox, clouds, packed,
+            octaves, fbm, flares, tonemap
         );
         assert_eq!(
             size_of::<Uniforms>() % 16,

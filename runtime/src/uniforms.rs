@@ -41,6 +41,28 @@ pub struct SkyUniforms {
     pub overcast: [f32; 4],
 }
 
+/// The clear sky of Perez and others. Each of a to e, base and zenith holds luminance, chromaticity x and chromaticity y.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct PerezUniforms {
+    /// xyz: unit direction towards the sun, or to the horizon above it; w: share of this model.
+    pub sun: [f32; 4],
+    /// xyz: how the horizon darkens (above 0) or brightens.
+    pub a: [f32; 4],
+    /// xyz: how fast, times log2 of e.
+    pub b: [f32; 4],
+    /// xyz: strength of the aureole.
+    pub c: [f32; 4],
+    /// xyz: how fast it falls, times log2 of e.
+    pub d: [f32; 4],
+    /// xyz: light scattered back.
+    pub e: [f32; 4],
+    /// xyz: what aureole and backscatter are added to.
+    pub base: [f32; 4],
+    /// xyz: the value at the zenith, over f(0, Z).
+    pub zenith: [f32; 4],
+}
+
 /// The sun's square.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -203,6 +225,8 @@ pub struct Uniforms {
     pub camera: CameraUniforms,
     /// Clear sky.
     pub sky: SkyUniforms,
+    /// Clear sky of Perez and others.
+    pub perez: PerezUniforms,
     /// The sun's square.
     pub sun: SunUniforms,
     /// Stars.

@@ -9,7 +9,35 @@ use crate::texture::Texture;
 /// Level 0 of the map, not rounded: shade, sum, nothing, cover. `layers` are those of
 /// [`crate::fbm_pack::packed`].
 pub fn render(fbm: &FbmUniforms, layers: &[Texture]) -> Image {
-    let [m, n, count, side] = fbm.remap;
+    map(fbm, layers, |sums| texel(fbm, sums))
+}
+
+/// What a texel of level 0 may be off by, in bytes: the four channels at most, and on average.
+///
+/// A texture unit may filter 8-bit texels in 8 bits (Mesa's software does), so a read is off by up to a byte; the
+/// channels that point towards the sun have been read and rounded once before, which makes two. Weights add up to 1, so
+/// the sums are off by no more. What that is worth is asked of every texel; the target rounds by half a byte. On
+/// average rounding is off by a quarter of its step.
+pub fn allowance(fbm: &FbmUniforms, layers: &[Texture]) -> ([f32; 4], [f32; 4]) {
+    let bounds = map(fbm, layers, |sums| {
+        let moved = |sign: f32| {
+            let bytes = [2.0, 2.0, 2.0, 1.0].map(|bytes| sign * bytes / 255.0);
+            texel(fbm, std::array::from_fn(|i| sums[i] + bytes[i]))
+        };
+        let (less, here, more) = (moved(-1.0), texel(fbm, sums), moved(1.0));
+        std::array::from_fn(|i| 255.0 * (more[i] - here[i]).max(here[i] - less[i]) + 0.5)
+    });
+    let texels = bounds.texels.len() as f32 / 4.0;
+    let channel = |i: usize| bounds.texels.iter().skip(i).step_by(4);
+    (
+        std::array::from_fn(|i| channel(i).fold(0.0, |most, bound| bound.max(most))),
+        std::array::from_fn(|i| channel(i).sum::<f32>() / texels / 4.0),
+    )
+}
+
+/// A map of something that follows from the sums of the octaves, three, two, one and no steps towards the sun.
+fn map(fbm: &FbmUniforms, layers: &[Texture], texel: impl Fn([f32; 4]) -> [f32; 4]) -> Image {
+    let [_, _, count, side] = fbm.remap;
     let offsets = [fbm.offsets_a, fbm.offsets_b, fbm.offsets_c, fbm.offsets_d].concat();
     let weights = [fbm.weights_a, fbm.weights_b].concat();
     let (width, height) = (side as u32, side as u32);
@@ -23,26 +51,16 @@ pub fn render(fbm: &FbmUniforms, layers: &[Texture]) -> Image {
                 *sum += weights[k] * noise;
             }
         }
-        let cover = (m * sums[3] + n).clamp(0.0, 1.0);
-        let shade = shade(sums.map(|sum| m * sum + fbm.step[3]));
-        map.texel_mut(x, y)
-            .copy_from_slice(&[shade, sums[3], 0.0, cover]);
+        map.texel_mut(x, y).copy_from_slice(&texel(sums));
     }
     map
 }
 
-/// What a texel of level 0 may be off by, in bytes: the four channels at most, and on average.
-///
-/// A texture unit may filter 8-bit texels in 8 bits (Mesa's software does), so a read is off by up to a byte; the channels
-/// that point towards the sun have been read and rounded once before, which makes two. Weights add up to 1, so the sums are
-/// off by no more; heights are m times their sum; the shade grows by at most ln 2 times the absorption times the mean
-/// height; the target rounds by half a byte. On average rounding is off by a quarter of its step.
-pub fn allowance(fbm: &FbmUniforms) -> ([f32; 4], [f32; 4]) {
-    let m = fbm.remap[0];
-    let height = m * (2.0 + 2.0 + 2.0 + 1.0) / 4.0;
-    let shade = std::f32::consts::LN_2 * ABSORPTION * height;
-    let most = [shade, 1.0, 0.0, m].map(|bytes| bytes + 0.5);
-    (most, most.map(|bytes| bytes / 4.0))
+fn texel(fbm: &FbmUniforms, sums: [f32; 4]) -> [f32; 4] {
+    let [m, n, ..] = fbm.remap;
+    let cover = (m * sums[3] + n).clamp(0.0, 1.0);
+    let shade = shade(sums.map(|sum| m * sum + fbm.step[3]));
+    [shade, sums[3], 0.0, cover]
 }
 
 /// What the cloud takes from the light: by the mean height above the ray.

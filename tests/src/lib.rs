@@ -20,6 +20,7 @@ pub mod octaves;
 pub mod octaves_map;
 pub mod pack;
 pub mod packed;
+pub mod perez;
 pub mod renderer;
 pub mod sky;
 pub mod skybox;
@@ -29,6 +30,6 @@ pub mod texture;
 pub mod tonemap;
 
 /// The first three of four numbers.
-pub(crate) fn xyz(four: [f32; 4]) -> glam::Vec3 {
+pub fn xyz(four: [f32; 4]) -> glam::Vec3 {
     glam::Vec3::new(four[0], four[1], four[2])
 }

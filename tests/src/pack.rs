@@ -99,6 +99,30 @@ pub fn with_skybox(size: u32, scene: impl Fn([f32; 3]) -> [f32; 4]) -> Pack {
     build(None, sources)
 }
 
+/// The default recipe's pack by another seed, made so that a picture shows nothing but opacity: by night its clouds are black,
+/// before a skybox of radiance 1.
+///
+/// # Panics
+/// If that is no pack.
+pub fn opacity_alone(seed: u64) -> Pack {
+    let resolved = welkin_baker::Recipe::default()
+        .resolve(Some(seed))
+        .expect("the default recipe resolves");
+    let mut sources =
+        welkin_baker::sources(&resolved, None, &|_| ControlFlow::Continue(())).expect("the images");
+    for source in sources.iter_mut().filter(|s| s.role == Role::Sky) {
+        source.images.iter_mut().for_each(|i| i.texels.fill(0.0));
+    }
+    let mut white = Image::new(16, 16, 4);
+    white.texels.fill(1.0);
+    sources.push(Source {
+        role: Role::Skybox,
+        format: Format::Rgba16Float,
+        images: vec![white; 6],
+    });
+    build(None, sources)
+}
+
 /// The default images, made once a test program.
 fn sources() -> Vec<Source> {
     static SOURCES: OnceLock<Vec<Source>> = OnceLock::new();

@@ -100,11 +100,13 @@ impl Frame<'_> {
         match self.method {
             Method::Packed => None,
             Method::Octaves => Some(octaves_map::render(octaves, &self.states)),
-            Method::Fbm => {
-                let layers = fbm_pack::packed(self.twin.pack, [fbm.step[0], fbm.step[1]]);
-                Some(fbm_map::render(fbm, &layers))
-            }
+            Method::Fbm => Some(fbm_map::render(fbm, &self.packed_octaves())),
         }
+    }
+
+    fn packed_octaves(&self) -> Vec<Texture> {
+        let [x, y, ..] = self.uniforms.fbm.step;
+        fbm_pack::packed(self.twin.pack, [x, y])
     }
 
     /// What a texel of level 0 of the map may be off by in each channel: at most, and on average, in bytes.
@@ -112,7 +114,7 @@ impl Frame<'_> {
         match self.method {
             Method::Packed => ([0.0; 4], [0.0; 4]),
             Method::Octaves => octaves_map::allowance(&self.uniforms.octaves, &self.states),
-            Method::Fbm => fbm_map::allowance(&self.uniforms.fbm),
+            Method::Fbm => fbm_map::allowance(&self.uniforms.fbm, &self.packed_octaves()),
         }
     }
 

@@ -5,7 +5,7 @@ use welkin_runtime::sky::{GROUND_FALL, GROUND_FLOOR};
 use welkin_runtime::uniforms::Uniforms;
 
 use crate::texture::Texture;
-use crate::xyz;
+use crate::{perez, xyz};
 
 /// Radiance of the clear sky along a unit direction.
 pub fn radiance(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3 {
@@ -20,6 +20,7 @@ pub fn radiance(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3
     let band = xyz(sky.band) * (side * side * libm::exp2f(-sky.band[3] * direction.y.abs()));
     let light =
         xyz(texture.sample([u, v], 0.0)) + lobe(sky.wide, 1.0) + lobe(sky.narrow, 12.0) + band;
+    let light = perez::light(&uniforms.perez, direction, light);
     let light = light.lerp(xyz(sky.overcast), sky.overcast[3]);
     let below = (-direction.y).max(0.0);
     light * (GROUND_FLOOR + (1.0 - GROUND_FLOOR) / (1.0 + GROUND_FALL * below))

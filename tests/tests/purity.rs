@@ -1,6 +1,6 @@
 //! A frame is a pure function of pack, parameters, camera and seconds.
 
-use welkin_runtime::{Camera, Method, OctaveParams, Sky, SkyParams};
+use welkin_runtime::{Camera, Method, OctaveParams, Sky, SkyModel, SkyParams};
 use welkin_tests::{gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -76,6 +76,30 @@ fn two_skies_in_turn_agree_and_switching_methods_changes_nothing() {
                 assert_same(&frame(sky, method, 77.0), expected, &what);
             }
         }
+    }
+}
+
+#[test]
+fn another_model_of_the_clear_sky_and_back_is_the_same_sky() {
+    for method in Method::ALL {
+        let with = |sky: &mut Sky, model: SkyModel| {
+            let params = SkyParams {
+                sky: model,
+                ..params(method, 4000.0)
+            };
+            gpu::render(sky, FORMAT, &params, &view(20.0), 20.0)
+        };
+        let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+        let [perez, gradient] =
+            [SkyModel::Perez, SkyModel::Gradient].map(|model| with(&mut sky, model));
+        assert_ne!(perez, gradient);
+        let mut new = gpu::sky(pack::default_pack(), FORMAT);
+        assert_same(
+            &with(&mut new, SkyModel::Gradient),
+            &gradient,
+            method.name(),
+        );
+        assert_same(&with(&mut sky, SkyModel::Perez), &perez, method.name());
     }
 }
 

@@ -1,7 +1,9 @@
 //! No parameter, camera, sun or time makes a pixel that is not a finite, positive amount of light.
 
 use welkin_pack::Pack;
-use welkin_runtime::{Camera, FbmParams, Method, OctaveParams, SkyParams};
+use welkin_runtime::{
+    Camera, FbmParams, Method, OctaveParams, PerezParams, PerezShape, SkyModel, SkyParams,
+};
 use welkin_tests::{gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -38,13 +40,16 @@ fn at_every_hour_in_every_special_direction() {
     for method in Method::ALL {
         for view in views() {
             for time in hours {
-                let params = SkyParams {
-                    time,
-                    method,
-                    upper_layer: 0.5,
-                    ..SkyParams::default()
-                };
-                cases.push((params, view, 1.0));
+                for sky in SkyModel::ALL {
+                    let params = SkyParams {
+                        time,
+                        sky,
+                        method,
+                        upper_layer: 0.5,
+                        ..SkyParams::default()
+                    };
+                    cases.push((params, view, 1.0));
+                }
             }
         }
     }
@@ -58,12 +63,15 @@ fn with_the_sun_exactly_at_the_zenith_on_the_horizon_and_at_the_nadir() {
     for method in Method::ALL {
         for view in views() {
             for time in [0.0, 0.25, 0.5, 0.75] {
-                let params = SkyParams {
-                    time,
-                    method,
-                    ..SkyParams::default()
-                };
-                cases.push((params, view, 0.0));
+                for sky in SkyModel::ALL {
+                    let params = SkyParams {
+                        time,
+                        sky,
+                        method,
+                        ..SkyParams::default()
+                    };
+                    cases.push((params, view, 0.0));
+                }
             }
         }
     }
@@ -82,6 +90,11 @@ fn all(method: Method, number: f32) -> SkyParams {
         upper_layer: number,
         exposure: number,
         dither: true,
+        sky: SkyModel::Perez,
+        perez: PerezParams {
+            shape: PerezShape::Custom([number; 5]),
+            turbidity: number,
+        },
         method,
         octaves: OctaveParams {
             // More than eight would only take longer to be clamped to eight.

@@ -1,7 +1,9 @@
 //! GPU and CPU agree, pixel by pixel, for skies of every kind and every method.
 
 use glam::Vec3;
-use welkin_runtime::{Camera, FbmParams, Method, OctaveParams, SkyParams};
+use welkin_runtime::{
+    Camera, FbmParams, Method, OctaveParams, PerezParams, PerezShape, SkyModel, SkyParams,
+};
 use welkin_tests::clouds::MOST_READS;
 use welkin_tests::renderer::{FILTER_STEP, Frame, Twin};
 use welkin_tests::{compare, gpu, pack, tonemap};
@@ -163,8 +165,50 @@ fn fbm_skies() -> Vec<Case> {
     ]
 }
 
+/// Skies of the other model, before the clouds of a method each.
+fn perez_skies() -> Vec<Case> {
+    let of = |shape: PerezShape, turbidity: f32, time: f32| SkyParams {
+        sky: SkyModel::Perez,
+        perez: PerezParams { shape, turbidity },
+        time,
+        cover: 0.3,
+        ..SkyParams::default()
+    };
+    let preetham = |turbidity: f32, time: f32| of(PerezShape::Preetham, turbidity, time);
+    let cie = |number: u8, time: f32| of(PerezShape::Cie(number), 2.5, time);
+    let custom = PerezShape::Custom([2.0, -0.3, 20.0, -4.0, 1.0]);
+    let with = |method: Method, params: SkyParams| SkyParams { method, ..params };
+    let mut shut = preetham(2.5, 0.4);
+    shut.cover = 1.0;
+    vec![
+        case("perez_noon", preetham(2.5, 0.5), 180.0, 40.0, 12.0),
+        case("perez_clear", preetham(1.7, 0.4), 300.0, 30.0, 1.0),
+        case(
+            "perez_haze",
+            with(Method::Fbm, preetham(8.0, 0.7)),
+            250.0,
+            15.0,
+            3.0,
+        ),
+        case("perez_sunset", preetham(3.0, 0.749), 270.0, 12.0, 5.0),
+        case(
+            "perez_twilight",
+            with(Method::Octaves, preetham(2.5, 0.757)),
+            270.0,
+            15.0,
+            5.0,
+        ),
+        case("perez_night", preetham(2.5, 0.0), 180.0, 45.0, 21.5),
+        case("perez_overcast", cie(1, 0.4), 20.0, 60.0, 0.0),
+        case("perez_blue", cie(12, 0.3), 90.0, 20.0, 0.0),
+        case("perez_turbid", cie(15, 0.6), 200.0, -10.0, 0.0),
+        case("perez_custom", of(custom, 5.0, 0.55), 0.0, 90.0, 0.0),
+        case("perez_shut", shut, 140.0, 10.0, 0.0),
+    ]
+}
+
 fn skies() -> Vec<Case> {
-    let own = [packed_skies(), octave_skies(), fbm_skies()];
+    let own = [packed_skies(), octave_skies(), fbm_skies(), perez_skies()];
     let shared = Method::ALL.map(shared_skies);
     shared.into_iter().chain(own).flatten().collect()
 }

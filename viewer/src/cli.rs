@@ -1,5 +1,6 @@
 //! The command line: every option with its range. Angles are in degrees here and nowhere else.
 
+mod clear_sky;
 mod render;
 mod values;
 

@@ -2,11 +2,16 @@
 
 use anyhow::{Result, ensure};
 use welkin_pack::{Pack, Role};
+use welkin_runtime::SkyParams;
+use welkin_runtime::frame::Facts;
 use welkin_viewer::gpu::Gpu;
 use welkin_viewer::headless::render;
 use welkin_viewer::save::{save, target_for};
 
 use crate::cli::RenderArgs;
+
+/// What calibration keeps: docs/cover.md.
+const MOST_OFF_OKTAS: f32 = 0.5;
 
 pub fn run(args: &RenderArgs) -> Result<()> {
     // The name is checked before anything slow begins.
@@ -17,8 +22,26 @@ pub fn run(args: &RenderArgs) -> Result<()> {
         "{}: has no skybox, so --skybox changes nothing; leave it out, or bake a pack from a recipe with a [skybox] table",
         args.pack.display()
     );
+    let mut view = args.view();
+    if let Some(oktas) = args.sky.oktas {
+        view.params.cover = cover_for_oktas(&pack, &view.params, oktas)?;
+    }
     let gpu = Gpu::open()?;
-    let frame = render(&gpu, &pack, target, &args.view())?;
+    let frame = render(&gpu, &pack, target, &view)?;
     save(&args.output, &frame)?;
     Ok(())
+}
+
+/// The cover that shows so many oktas; an error if no cover does.
+fn cover_for_oktas(pack: &Pack, params: &SkyParams, oktas: f32) -> Result<f32> {
+    let facts = Facts::new(pack)?;
+    let cover = facts.cover_for_oktas(params, oktas);
+    let shown = facts.oktas(&SkyParams { cover, ..*params });
+    ensure!(
+        (shown - oktas).abs() <= MOST_OFF_OKTAS,
+        "--oktas {oktas}: with the other options, --method {} shows {} {shown:.1} oktas; ask for that, or change its options",
+        params.method.name(),
+        if shown < oktas { "at most" } else { "at least" },
+    );
+    Ok(cover)
 }

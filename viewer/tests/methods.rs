@@ -86,6 +86,40 @@ fn options_of_fbm_change_its_clouds() {
 }
 
 #[test]
+fn oktas_find_the_cover_of_every_method() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("frame.png");
+    for method in METHODS {
+        let with = |words: &[&str]| render(&file, &[&["--method", method][..], words].concat());
+        assert_eq!(with(&["--oktas", "0"]), with(&["--cover", "0"]), "{method}");
+        assert_eq!(with(&["--oktas", "8"]), with(&["--cover", "1"]), "{method}");
+        assert_ne!(with(&["--oktas", "3"]), with(&["--oktas", "5"]), "{method}");
+    }
+}
+
+#[test]
+fn oktas_that_the_other_options_do_not_allow_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let attempts: [(&[&str], &[&str]); 2] = [
+        (
+            &["--oktas", "4", "--method", "octaves", "--domes", "0,0,0"],
+            &["--oktas 4", "at most 0.0 oktas"],
+        ),
+        (
+            &["--oktas", "0", "--upper", "1"],
+            &["--oktas 0", "at least"],
+        ),
+    ];
+    for (words, told) in attempts {
+        let mut command = view(&["render", "-o"]);
+        command.arg(folder.path().join("frame.png")).arg(pack());
+        command.args(words);
+        failed(&run(command), 1, told);
+    }
+    assert_eq!(folder.path().read_dir().unwrap().count(), 0);
+}
+
+#[test]
 fn sun_flare_and_stars_can_be_left_out() {
     let towards_the_sun = ["--cover", "0", "--azimuth", "180", "--elevation", "50"];
     each_option_changes(

@@ -4,7 +4,7 @@
 //! flare are paid for.
 
 use welkin_runtime::params::MAX_OCTAVES;
-use welkin_runtime::{Camera, Method, OctaveParams, SkyParams};
+use welkin_runtime::{Camera, Method, OctaveParams, SkyModel, SkyParams};
 
 /// With this the lower edge of the frame is 20 degrees above the horizon at its middle, and above it
 /// everywhere, however wide the frame is.
@@ -42,6 +42,10 @@ pub fn scenes(method: Method) -> Vec<Scene> {
         ..usual
     };
     let night = SkyParams { time: 0.0, ..usual };
+    let perez = SkyParams {
+        sky: SkyModel::Perez,
+        ..usual
+    };
     let scene = |label: &str, params: SkyParams, azimuth_deg: f32| Scene {
         label: label.to_string(),
         params,
@@ -55,7 +59,8 @@ pub fn scenes(method: Method) -> Vec<Scene> {
         scene("alone", alone(usual), SOUTH_DEG),
     ];
     match method {
-        Method::Packed => {}
+        // What is behind the clouds is the same for every method.
+        Method::Packed => scenes.push(scene("alone, Perez sky", alone(perez), SOUTH_DEG)),
         Method::Octaves => scenes.extend((1..=MAX_OCTAVES).map(|count| {
             let label = format!("alone, {count} octave{}", if count == 1 { "" } else { "s" });
             let octaves = OctaveParams {

@@ -7,9 +7,10 @@ use clap::{ArgMatches, Args, ValueEnum};
 use welkin_runtime::{Camera, FbmParams, Method, OctaveParams, SkyParams};
 use welkin_viewer::headless::View;
 
+use super::clear_sky::ClearSkyArgs;
 use super::values::{
-    azimuth_deg, elevation_deg, formation_interval_s, fov_deg, octaves, place_m, seconds, size,
-    three_units, unit,
+    azimuth_deg, elevation_deg, formation_interval_s, fov_deg, octaves, oktas, place_m, seconds,
+    size, three_units, unit,
 };
 
 #[derive(Debug, Args)]
@@ -30,6 +31,8 @@ pub struct RenderArgs {
     pub at: f64,
     #[command(flatten)]
     pub sky: SkyArgs,
+    #[command(flatten)]
+    pub clear_sky: ClearSkyArgs,
     #[command(flatten)]
     pub light: LightArgs,
     #[command(flatten)]
@@ -66,6 +69,9 @@ pub struct SkyArgs {
     /// Cloud cover: 0 none, 1 all
     #[arg(long, value_name = "C", default_value_t = SkyParams::default().cover, value_parser = unit, allow_negative_numbers = true)]
     pub cover: f32,
+    /// The cover that shows so many eighths of cloud on average, 0 to 8: 0 none, 8 all
+    #[arg(long, value_name = "N", conflicts_with = "cover", value_parser = oktas, allow_negative_numbers = true)]
+    pub oktas: Option<f32>,
     /// Height of the clouds: 0 low, 1 high
     #[arg(long, value_name = "H", default_value_t = SkyParams::default().height, value_parser = unit, allow_negative_numbers = true)]
     pub height: f32,
@@ -215,6 +221,8 @@ impl RenderArgs {
             sunset: self.sky.sunset,
             speed: self.sky.speed,
             time: self.sky.time,
+            sky: self.clear_sky.sky.into(),
+            perez: self.clear_sky.perez_params(),
             upper_layer: self.clouds.upper,
             method: self.method.into(),
             octaves: self.clouds.octave_params(),
@@ -232,6 +240,7 @@ impl RenderArgs {
     /// # Errors
     /// Which option it is, and whose.
     pub fn refuse_others(&self, given: &ArgMatches) -> Result<(), String> {
+        self.clear_sky.refuse_others(given)?;
         let method = Method::from(self.method);
         let stray = OWNERS.iter().find(|(option, owners)| {
             given.value_source(option) == Some(ValueSource::CommandLine)

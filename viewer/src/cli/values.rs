@@ -3,7 +3,9 @@
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
+use welkin_runtime::cie;
 use welkin_runtime::params::{FORMATION_INTERVAL_S, MAX_OCTAVES};
+use welkin_runtime::perez::{CUSTOM, TURBIDITY};
 
 /// Farther than this from the origin, clouds that are kilometres high say nothing of the place any more.
 const PLACE_RANGE_M: f64 = 1e6;
@@ -31,6 +33,10 @@ pub fn place_m(text: &str) -> Result<f32, String> {
     within(text, -PLACE_RANGE_M..=PLACE_RANGE_M, " metres").map(|v| v as f32)
 }
 
+pub fn oktas(text: &str) -> Result<f32, String> {
+    within(text, 0.0..=8.0, " oktas").map(|v| v as f32)
+}
+
 /// 1e9 seconds are 31 years: longer than any animation, and still exact to a microsecond in 64 bits.
 pub fn seconds(text: &str) -> Result<f64, String> {
     within(text, 0.0..=1e9, " seconds")
@@ -47,6 +53,36 @@ pub fn octaves(text: &str) -> Result<u32, String> {
         Ok(count) if (1..=MAX_OCTAVES).contains(&count) => Ok(count),
         _ => Err(format!("expected a whole number from 1 to {MAX_OCTAVES}")),
     }
+}
+
+/// In single precision, as the formation interval.
+pub fn turbidity(text: &str) -> Result<f32, String> {
+    let [low, high] = TURBIDITY;
+    within(text, low..=high, "")
+}
+
+pub fn cie_type(text: &str) -> Result<u8, String> {
+    let last = cie::SKIES.len() as u8;
+    match text.parse() {
+        Ok(number) if (1..=last).contains(&number) => Ok(number),
+        _ => Err(format!("expected a whole number from 1 to {last}")),
+    }
+}
+
+/// Five numbers between commas, each in its range.
+pub fn perez(text: &str) -> Result<[f32; 5], String> {
+    let numbers: Option<Vec<f32>> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok())
+        .collect();
+    let numbers: Option<[f32; 5]> = numbers.and_then(|numbers| numbers.try_into().ok());
+    let inside = |(number, [low, high]): (&f32, [f32; 2])| (low..=high).contains(number);
+    numbers
+        .filter(|numbers| numbers.iter().zip(CUSTOM).all(inside))
+        .ok_or_else(|| {
+            let ranges = CUSTOM.map(|[low, high]| format!("{low} to {high}"));
+            format!("expected five numbers: {}", ranges.join(", "))
+        })
 }
 
 /// Three numbers from 0 to 1, between commas.

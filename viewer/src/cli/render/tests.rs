@@ -56,6 +56,27 @@ fn shares_outside_their_range_are_refused_by_name() {
 }
 
 #[test]
+fn oktas_are_eighths_and_stand_in_place_of_cover() {
+    for value in ["8.5", "-1", "nan", "inf", "half", ""] {
+        let error = error_of(&["--oktas", value]);
+        assert!(error.contains("--oktas"), "{error}");
+        assert!(
+            error.contains("expected a number from 0 to 8 oktas"),
+            "{error}"
+        );
+    }
+    let error = error_of(&["--oktas", "4", "--cover", "0.5"]);
+    assert!(
+        error.contains("--oktas") && error.contains("--cover"),
+        "{error}"
+    );
+    for (text, oktas) in [("0", 0.0), ("2.5", 2.5), ("8", 8.0)] {
+        assert_eq!(render_args(&["--oktas", text]).sky.oktas, Some(oktas));
+    }
+    assert_eq!(render_args(&[]).sky.oktas, None);
+}
+
+#[test]
 fn numbers_with_units_outside_their_range_are_refused() {
     for (option, range, values) in [
         (

@@ -1,0 +1,164 @@
+//! The bind groups: what every pass shares in group 0, what a method or an off-screen pass adds in group 1.
+
+use welkin_pack::Role;
+
+use crate::pipeline::vertex_state;
+use crate::uniforms::Uniforms;
+
+/// Bindings of the textures, as uniforms.wgsl declares them.
+pub(crate) const TEXTURES: [(u32, Role); 6] = [
+    (3, Role::Clouds),
+    (4, Role::Stars),
+    (5, Role::Galaxy),
+    (6, Role::Sky),
+    (7, Role::Sun),
+    (8, Role::Flares),
+];
+
+/// Binding of the skybox, the only cube.
+pub(crate) const SKYBOX_BINDING: u32 = 9;
+
+/// Layouts of the groups: what every pass shares in group 0, what a method adds in group 1.
+#[derive(Debug)]
+pub(crate) struct Layouts {
+    /// Uniforms, samplers and the pack's textures.
+    pub shared: wgpu::BindGroupLayout,
+    /// One 2-D texture, at binding 0.
+    pub texture: wgpu::BindGroupLayout,
+    /// One array of textures, at binding 1.
+    pub layers: wgpu::BindGroupLayout,
+}
+
+impl Layouts {
+    pub fn new(device: &wgpu::Device) -> Layouts {
+        let one = |binding: u32, dimension| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some("sky, a method's own"),
+                entries: &[entry(binding, texture(true, dimension))],
+            })
+        };
+        Layouts {
+            shared: shared_layout(device),
+            texture: one(0, wgpu::TextureViewDimension::D2),
+            layers: one(1, wgpu::TextureViewDimension::D2Array),
+        }
+    }
+
+    /// Group 1 with one 2-D texture.
+    pub fn texture_group(
+        &self,
+        device: &wgpu::Device,
+        view: &wgpu::TextureView,
+    ) -> wgpu::BindGroup {
+        group(device, &self.texture, 0, view)
+    }
+
+    /// Group 1 with an array of textures, even if it has one layer only.
+    pub fn layers_group(&self, device: &wgpu::Device, texture: &wgpu::Texture) -> wgpu::BindGroup {
+        let view = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        group(device, &self.layers, 1, &view)
+    }
+
+    /// A pipeline that fills a whole target; `own` is the layout of its group 1.
+    pub fn off_screen(
+        &self,
+        device: &wgpu::Device,
+        module: &wgpu::ShaderModule,
+        entry_point: &str,
+        own: &wgpu::BindGroupLayout,
+        format: wgpu::TextureFormat,
+    ) -> wgpu::RenderPipeline {
+        let layout = self.pipeline_layout(device, Some(own));
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(entry_point),
+            layout: Some(&layout),
+            vertex: vertex_state(module, "vs_map", &[]),
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some(entry_point),
+                compilation_options: Default::default(),
+                targets: &[Some(format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+
+    /// The layout of a pipeline whose group 1, if it has one, is `own`.
+    pub fn pipeline_layout(
+        &self,
+        device: &wgpu::Device,
+        own: Option<&wgpu::BindGroupLayout>,
+    ) -> wgpu::PipelineLayout {
+        let mut groups = vec![Some(&self.shared)];
+        groups.extend(own.map(Some));
+        device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("sky"),
+            bind_group_layouts: &groups,
+            ..Default::default()
+        })
+    }
+}
+
+fn group(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    binding: u32,
+    view: &wgpu::TextureView,
+) -> wgpu::BindGroup {
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("sky, a method's own"),
+        layout,
+        entries: &[wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::TextureView(view),
+        }],
+    })
+}
+
+/// Everything is seen by both stages: the flare asks for the clouds before the sun in its vertex stage.
+fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        ty,
+        count: None,
+    }
+}
+
+fn texture(filterable: bool, view_dimension: wgpu::TextureViewDimension) -> wgpu::BindingType {
+    wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable },
+        view_dimension,
+        multisampled: false,
+    }
+}
+
+fn shared_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let uniform = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: wgpu::BufferSize::new(size_of::<Uniforms>() as u64),
+    };
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+    let (plane, cube) = (
+        wgpu::TextureViewDimension::D2,
+        wgpu::TextureViewDimension::Cube,
+    );
+    let mut entries = vec![entry(0, uniform), entry(1, sampler), entry(2, sampler)];
+    // Stars are records: they are loaded, never filtered.
+    entries.extend(
+        TEXTURES.map(|(binding, role)| entry(binding, texture(role != Role::Stars, plane))),
+    );
+    entries.push(entry(SKYBOX_BINDING, texture(true, cube)));
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("sky, shared"),
+        entries: &entries,
+    })
+}
