@@ -1,12 +1,14 @@
 //! The bind groups: what every pass shares in group 0, what a method or an off-screen pass adds in group 1.
 
-use welkin_pack::Role;
+use welkin_pack::{Pack, Role};
 
+use crate::SkyError;
 use crate::pipeline::vertex_state;
 use crate::uniforms::Uniforms;
+use crate::upload::{upload, upload_skybox};
 
 /// Bindings of the textures, as uniforms.wgsl declares them.
-pub(crate) const TEXTURES: [(u32, Role); 6] = [
+const TEXTURES: [(u32, Role); 6] = [
     (3, Role::Clouds),
     (4, Role::Stars),
     (5, Role::Galaxy),
@@ -16,7 +18,7 @@ pub(crate) const TEXTURES: [(u32, Role); 6] = [
 ];
 
 /// Binding of the skybox, the only cube.
-pub(crate) const SKYBOX_BINDING: u32 = 9;
+const SKYBOX_BINDING: u32 = 9;
 
 /// Layouts of the groups: what every pass shares in group 0, what a method adds in group 1.
 #[derive(Debug)]
@@ -160,5 +162,59 @@ fn shared_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("sky, shared"),
         entries: &entries,
+    })
+}
+
+/// Group 0: uniforms, samplers and the textures that every method may read.
+pub(crate) fn shared_group(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    pack: &Pack,
+    layouts: &Layouts,
+    buffer: &wgpu::Buffer,
+) -> Result<wgpu::BindGroup, SkyError> {
+    let samplers = [wgpu::AddressMode::Repeat, wgpu::AddressMode::ClampToEdge]
+        .map(|mode| sampler(device, mode));
+    let mut views = Vec::new();
+    for (binding, role) in TEXTURES {
+        let texture = upload(device, queue, pack, role)?;
+        views.push((binding, texture.create_view(&Default::default())));
+    }
+    let skybox = upload_skybox(device, queue, pack)?;
+    let cube = skybox.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::Cube),
+        ..Default::default()
+    });
+    views.push((SKYBOX_BINDING, cube));
+    let mut entries = vec![wgpu::BindGroupEntry {
+        binding: 0,
+        resource: buffer.as_entire_binding(),
+    }];
+    for (binding, sampler) in (1..).zip(&samplers) {
+        entries.push(wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::Sampler(sampler),
+        });
+    }
+    entries.extend(views.iter().map(|(binding, view)| wgpu::BindGroupEntry {
+        binding: *binding,
+        resource: wgpu::BindingResource::TextureView(view),
+    }));
+    Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("sky"),
+        layout: &layouts.shared,
+        entries: &entries,
+    }))
+}
+
+fn sampler(device: &wgpu::Device, mode: wgpu::AddressMode) -> wgpu::Sampler {
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("sky"),
+        address_mode_u: mode,
+        address_mode_v: mode,
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        mipmap_filter: wgpu::MipmapFilterMode::Linear,
+        ..Default::default()
     })
 }

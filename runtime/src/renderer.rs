@@ -9,11 +9,11 @@ use welkin_pack::{Pack, Role};
 use wgpu::util::DeviceExt;
 
 use crate::frame::Facts;
-use crate::layouts::{Layouts, SKYBOX_BINDING, TEXTURES};
+use crate::layouts::{Layouts, shared_group};
 use crate::pipeline::{Variant, flare_pipeline, output, pipelines};
 use crate::shader::{Build, compose};
 use crate::uniforms::Uniforms;
-use crate::upload::{upload, upload_skybox};
+use crate::upload::upload;
 use crate::{
     Camera, Method, SkyError, SkyModel, SkyParams, dome, fbm_map, flares, map, octaves_map, tonemap,
 };
@@ -333,60 +333,6 @@ impl OwnMap {
             OwnMap::Fbm(pass) => Some(&pass.map),
         }
     }
-}
-
-/// Group 0: uniforms, samplers and the textures that every method may read.
-fn shared_group(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    pack: &Pack,
-    layouts: &Layouts,
-    buffer: &wgpu::Buffer,
-) -> Result<wgpu::BindGroup, SkyError> {
-    let samplers = [wgpu::AddressMode::Repeat, wgpu::AddressMode::ClampToEdge]
-        .map(|mode| sampler(device, mode));
-    let mut views = Vec::new();
-    for (binding, role) in TEXTURES {
-        let texture = upload(device, queue, pack, role)?;
-        views.push((binding, texture.create_view(&Default::default())));
-    }
-    let skybox = upload_skybox(device, queue, pack)?;
-    let cube = skybox.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::Cube),
-        ..Default::default()
-    });
-    views.push((SKYBOX_BINDING, cube));
-    let mut entries = vec![wgpu::BindGroupEntry {
-        binding: 0,
-        resource: buffer.as_entire_binding(),
-    }];
-    for (binding, sampler) in (1..).zip(&samplers) {
-        entries.push(wgpu::BindGroupEntry {
-            binding,
-            resource: wgpu::BindingResource::Sampler(sampler),
-        });
-    }
-    entries.extend(views.iter().map(|(binding, view)| wgpu::BindGroupEntry {
-        binding: *binding,
-        resource: wgpu::BindingResource::TextureView(view),
-    }));
-    Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("sky"),
-        layout: &layouts.shared,
-        entries: &entries,
-    }))
-}
-
-fn sampler(device: &wgpu::Device, mode: wgpu::AddressMode) -> wgpu::Sampler {
-    device.create_sampler(&wgpu::SamplerDescriptor {
-        label: Some("sky"),
-        address_mode_u: mode,
-        address_mode_v: mode,
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        mipmap_filter: wgpu::MipmapFilterMode::Linear,
-        ..Default::default()
-    })
 }
 
 fn dome_buffers(device: &wgpu::Device, step_deg: f32) -> DomeBuffers {
