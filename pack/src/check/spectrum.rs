@@ -59,7 +59,8 @@ impl Spectrum {
             .fold(0.0, f64::max)
     }
 
-    fn vectors(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+    /// Every wave vector, as two wave numbers, with its energy.
+    pub(super) fn vectors(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         let size = self.size;
         let places = self.energy.iter().enumerate();
         places.map(move |(i, &energy)| (i % size, i / size, energy))

@@ -8,7 +8,8 @@ use super::report::{Bound, Report};
 use super::rule::{
     STAR_CLIP, STAR_CLUSTER, STAR_EMPTY, STAR_LATTICE, STAR_LIGHT, STAR_PHASE, STAR_SHARE,
 };
-use crate::{Role, Texture};
+use super::spectrum::Spectrum;
+use crate::{Image, Role, Texture};
 
 const NAME: &str = Role::Stars.name();
 
@@ -48,7 +49,7 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
     }
     let phases: Vec<u8> = texels(0).filter(|t| t[0] > 0).map(|t| t[3]).collect();
     check_phases(report, &phases);
-    check_lattice(report, &lit, texture.width, texture.height);
+    check_lattice(report, &lit, texture.width);
     check_clusters(report, &lit, texture.width, texture.height);
 }
 
@@ -90,40 +91,21 @@ fn check_phases(report: &mut Report, phases: &[u8]) {
 ///
 /// For independent stars S is exponentially distributed with mean 1 at every wave vector, for a lattice
 /// it is N at the lattice's own. A minimum distance lowers S at small k and lifts it little elsewhere.
-fn check_lattice(report: &mut Report, stars: &[[usize; 2]], width: u32, height: u32) {
-    let (width, height) = (width as usize, height as usize);
-    let wave = |n: usize| -> Vec<(f64, f64)> {
-        let angle = |i: usize| std::f64::consts::TAU * i as f64 / n as f64;
-        (0..n)
-            .map(|i| (libm::cos(angle(i)), libm::sin(angle(i))))
-            .collect()
-    };
-    let (along_x, along_y) = (wave(width), wave(height));
-    // Rows first, so that each wave vector costs the rows and not the stars.
-    let mut peak = 0.0_f64;
-    let mut row_sums = vec![(0.0, 0.0); height];
-    for kx in 0..width / 2 {
-        row_sums.fill((0.0, 0.0));
-        for &[x, y] in stars {
-            let (cos, sin) = along_x[kx * x % width];
-            row_sums[y].0 += cos;
-            row_sums[y].1 += sin;
-        }
-        for ky in 0..height {
-            // The conjugate half of the plane says nothing new.
-            if kx == 0 && (ky == 0 || ky > height / 2) {
-                continue;
-            }
-            let (mut re, mut im) = (0.0, 0.0);
-            for (y, &(a, b)) in row_sums.iter().enumerate() {
-                let (cos, sin) = along_y[ky * y % height];
-                re += a * cos - b * sin;
-                im += a * sin + b * cos;
-            }
-            peak = peak.max((re * re + im * im) / stars.len() as f64);
-        }
+fn check_lattice(report: &mut Report, stars: &[[usize; 2]], side: u32) {
+    let mut field = Image::new(side, side, 1);
+    for &[x, y] in stars {
+        field.texel_mut(x as u32, y as u32)[0] = 1.0;
     }
-    let waves = (width / 2 * height) as f64;
+    let half = side as usize / 2;
+    let spectrum = Spectrum::new(&field, 0);
+    // The conjugate half of the plane says nothing new.
+    let one_of_each = |kx: usize, ky: usize| kx < half && (kx > 0 || (1..=half).contains(&ky));
+    let peak = spectrum
+        .vectors()
+        .filter(|&(kx, ky, _)| one_of_each(kx, ky))
+        .map(|(_, _, energy)| energy / stars.len() as f64)
+        .fold(0.0, f64::max);
+    let waves = (half * side as usize) as f64;
     report.measure(
         STAR_LATTICE,
         NAME,
