@@ -5,7 +5,6 @@ use welkin_pack::{Image, Pack, Role, Texture};
 use crate::clouds::CloudView;
 use crate::fbm_map::Octaves;
 use crate::light::Light;
-use crate::oktas::Distributions;
 use crate::uniforms::{CameraUniforms, Uniforms, vec4};
 use crate::{
     Camera, Method, SkyError, SkyParams, clouds, fbm, flares, galaxy, octaves, octaves_map, packed,
@@ -37,8 +36,6 @@ pub struct Facts {
     pub noise: Vec<u8>,
     /// The octaves of smooth noise.
     pub fbm: Octaves,
-    /// How what makes opacity is distributed.
-    pub distributions: Distributions,
 }
 
 impl Facts {
@@ -48,13 +45,10 @@ impl Facts {
     /// [`SkyError::MissingTexture`] if the pack lacks a texture.
     pub fn new(pack: &Pack) -> Result<Facts, SkyError> {
         let side = |t: &Texture| (t.width, t.levels.len());
-        let clouds = texture(pack, Role::Clouds)?;
-        let smooth = texture(pack, Role::Fbm)?;
-        let fbm = Octaves::new(smooth);
         Ok(Facts {
             noon_elevation_rad: pack.manifest().noon_elevation_rad,
             sky: texture(pack, Role::Sky)?.image(0, 0),
-            clouds_texels: clouds.width,
+            clouds_texels: texture(pack, Role::Clouds)?.width,
             cloud_means: cloud_means(pack)?,
             stars: side(texture(pack, Role::Stars)?),
             sun: side(texture(pack, Role::Sun)?),
@@ -62,8 +56,7 @@ impl Facts {
             skybox: pack.texture(Role::Skybox).map(side),
             seed: pack.manifest().seed,
             noise: texture(pack, Role::Octaves)?.levels.concat(),
-            distributions: Distributions::new(&clouds.image(0, 0), smooth, &fbm),
-            fbm,
+            fbm: Octaves::new(texture(pack, Role::Fbm)?),
         })
     }
 
@@ -112,14 +105,8 @@ impl Facts {
         };
         let overcast = vec4(overcast, clouds::closing(params.cover));
         let camera = camera_uniforms(camera);
-        let [face, levels] = self
-            .skybox
-            .map_or([1, 1], |(face, levels)| [face, levels as u32]);
-        let skybox_share = if self.skybox.is_some() {
-            params.skybox
-        } else {
-            0.0
-        };
+        // Without a skybox the shader does not read one.
+        let (face, levels) = self.skybox.unwrap_or((1, 1));
         Uniforms {
             camera,
             sky: sky::uniforms(&light, &self.sky, params.time, night, overcast),
@@ -127,7 +114,7 @@ impl Facts {
             sun: sun::uniforms(&light, &rays, self.sun.0, self.sun.1, pixel, params.sun),
             stars: stars::uniforms(self.stars.0, self.stars.1, pixel_rad, night, seconds),
             galaxy: galaxy::uniforms(night, self.clouds_texels, pixel),
-            skybox: skybox::uniforms(skybox_share, face, levels as usize, pixel),
+            skybox: skybox::uniforms(params.skybox, face, levels, pixel),
             clouds,
             packed,
             octaves,

@@ -26,7 +26,6 @@
 pub mod camera;
 pub mod cie;
 pub mod clouds;
-mod distribution;
 pub mod dome;
 pub mod error;
 pub mod fbm;
@@ -35,6 +34,7 @@ pub mod fbm_pack;
 pub mod flares;
 pub mod frame;
 pub mod galaxy;
+mod histogram;
 mod layouts;
 pub mod light;
 pub mod map;
@@ -57,6 +57,7 @@ mod upload;
 
 pub use camera::Camera;
 pub use error::SkyError;
+pub use oktas::Oktas;
 pub use params::{FbmParams, Method, OctaveParams, ParamError, SkyModel, SkyParams};
 pub use perez::{PerezParams, PerezShape};
 pub use renderer::{DepthConfig, Sky, SkyConfig};

@@ -30,6 +30,23 @@ impl Map {
         format: wgpu::TextureFormat,
         side: u32,
     ) -> Map {
+        let averaging = layouts.off_screen(device, module, "fs_level", &layouts.texture, format);
+        Map::with_pipeline(device, layouts, averaging, format, side)
+    }
+
+    /// An empty map of another size, by the same pipeline.
+    pub fn resized(&self, device: &wgpu::Device, layouts: &Layouts, side: u32) -> Map {
+        let format = self.texture.format();
+        Map::with_pipeline(device, layouts, self.averaging.clone(), format, side)
+    }
+
+    fn with_pipeline(
+        device: &wgpu::Device,
+        layouts: &Layouts,
+        averaging: wgpu::RenderPipeline,
+        format: wgpu::TextureFormat,
+        side: u32,
+    ) -> Map {
         let count = (side / LEAST_SIDE).ilog2() + 1;
         let texture = target(device, "map", format, [side, side, 1], count);
         let view = |first: u32, count: u32| {
@@ -46,7 +63,7 @@ impl Map {
             .collect();
         Map {
             sources,
-            averaging: layouts.off_screen(device, module, "fs_level", &layouts.texture, format),
+            averaging,
             group: layouts.texture_group(device, &view(0, count)),
             levels,
             texture,

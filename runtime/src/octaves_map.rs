@@ -183,10 +183,9 @@ fn mix(value: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// The pass on a device, for one number of octaves.
+/// The pass on a device.
 #[derive(Debug)]
 pub(crate) struct Pass {
-    count: u32,
     states: wgpu::Texture,
     source: wgpu::BindGroup,
     pipeline: wgpu::RenderPipeline,
@@ -201,23 +200,9 @@ impl Pass {
         layouts: &Layouts,
         count: u32,
     ) -> Pass {
-        let states = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("octave states"),
-            size: wgpu::Extent3d {
-                width: NOISE_SIDE,
-                height: NOISE_SIDE,
-                depth_or_array_layers: count,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::R16Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
         let format = wgpu::TextureFormat::Rgba8Unorm;
+        let states = states_texture(device, count);
         Pass {
-            count,
             source: layouts.layers_group(device, &states),
             pipeline: layouts.off_screen(device, module, "fs_octaves_map", &layouts.layers, format),
             map: Map::new(device, module, layouts, format, side(count)),
@@ -225,9 +210,16 @@ impl Pass {
         }
     }
 
-    /// Whether this pass draws that many octaves.
-    pub fn fits(&self, count: u32) -> bool {
-        self.count == count
+    /// Makes the textures anew if they are for another number of octaves.
+    pub fn fit(&mut self, device: &wgpu::Device, layouts: &Layouts, count: u32) {
+        if self.states.depth_or_array_layers() == count {
+            return;
+        }
+        self.states = states_texture(device, count);
+        self.source = layouts.layers_group(device, &self.states);
+        if self.map.texture().width() != side(count) {
+            self.map = self.map.resized(device, layouts, side(count));
+        }
     }
 
     /// Uploads the states of the octaves and records the pass.
@@ -261,6 +253,24 @@ impl Pass {
     pub fn bytes(&self) -> u64 {
         map::texture_bytes(&self.states) + map::texture_bytes(self.map.texture())
     }
+}
+
+/// An array with a layer an octave.
+fn states_texture(device: &wgpu::Device, count: u32) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("octave states"),
+        size: wgpu::Extent3d {
+            width: NOISE_SIDE,
+            height: NOISE_SIDE,
+            depth_or_array_layers: count,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::R16Float,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
 }
 
 #[cfg(test)]

@@ -19,17 +19,16 @@
 //! None of them says how much of the sky its cover covers.
 //!
 //! # Practice
-//! Histograms are made once a pack. A cover costs a few milliseconds and depends on neither camera nor moment: find it when a
+//! [`Oktas`] is made once a pack. A cover costs a millisecond or two and depends on neither camera nor moment: find it when a
 //! setting changes. It is right on average over moments; one moment is a sample (docs/cover.md).
 
-use welkin_pack::{Image, Texture};
+use welkin_pack::{Pack, Role};
 
-use crate::distribution::Distribution;
-use crate::fbm_map::{self, Octaves};
-use crate::frame::Facts;
+use crate::frame::{self, Facts};
+use crate::histogram::Histogram;
 use crate::light::smoothstep;
 use crate::uniforms::{FbmUniforms, OctaveDome, OctaveUniforms, PackedUniforms, Uniforms};
-use crate::{Camera, Method, SkyParams, fbm, octaves, packed};
+use crate::{Camera, Method, SkyError, SkyParams, fbm, fbm_map, octaves, packed};
 
 /// The opacity above which a direction counts as covered.
 pub const OPAQUE: f32 = 0.1;
@@ -45,54 +44,60 @@ const NODES: usize = 32;
 /// Thicknesses of a dome: whether it needs another one to be opaque is no smooth function.
 const DOME_NODES: usize = 64;
 
-/// How the numbers that make opacity are distributed in a pack.
+/// What a pack's clouds cover: how the numbers that make opacity are distributed in it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Distributions {
-    noise: Distribution,
-    detail: Distribution,
+pub struct Oktas {
+    facts: Facts,
+    noise: Histogram,
+    detail: Histogram,
     /// Photo and noise blended: line 14.
-    amount: Distribution,
+    amount: Histogram,
     /// The weighted sum of the octaves of smooth noise.
-    fbm: Distribution,
+    fbm: Histogram,
 }
 
-impl Distributions {
-    /// Counts the texels of level 0.
-    pub(crate) fn new(clouds: &Image, fbm: &Texture, octaves: &Octaves) -> Distributions {
-        let [photo, noise, detail] = [0, 1, 2].map(|c| Distribution::of(clouds.channel(c)));
-        let weights = fbm_map::weights(octaves).into_iter().take(octaves.count());
-        let sum = weights.enumerate().fold(
-            Distribution::of([0.0].into_iter()),
-            |sum, (layer, weight)| {
-                let octave = Distribution::of(fbm.image(0, layer as u32).channel(3));
-                Distribution::of_pairs(&sum, &octave, |sum, octave| sum + weight * octave)
-            },
-        );
-        Distributions {
-            amount: Distribution::of_pairs(&photo, &noise, |photo, noise| {
+impl Oktas {
+    /// Counts the texels of level 0: some milliseconds.
+    ///
+    /// # Errors
+    /// As [`Facts::new`].
+    pub fn new(pack: &Pack) -> Result<Oktas, SkyError> {
+        let facts = Facts::new(pack)?;
+        let clouds = frame::texture(pack, Role::Clouds)?.image(0, 0);
+        let [photo, noise, detail] = [0, 1, 2].map(|c| Histogram::of(clouds.channel(c)));
+        let smooth = frame::texture(pack, Role::Fbm)?;
+        let weights = fbm_map::weights(&facts.fbm)
+            .into_iter()
+            .take(facts.fbm.count());
+        let nothing = Histogram::of([0.0].into_iter());
+        let fbm = weights.enumerate().fold(nothing, |sum, (layer, weight)| {
+            let octave = Histogram::of(smooth.image(0, layer as u32).channel(3));
+            Histogram::of_pairs(&sum, &octave, |sum, octave| sum + weight * octave)
+        });
+        Ok(Oktas {
+            amount: Histogram::of_pairs(&photo, &noise, |photo, noise| {
                 photo + noise * (1.0 - photo)
             }),
+            facts,
             noise,
             detail,
-            fbm: sum,
-        }
+            fbm,
+        })
     }
-}
 
-impl Facts {
     /// The `cover` with which the method of `params`, all else as it is, shows `oktas` eighths of cloud on average.
     ///
     /// 0 is no cloud of any kind that cover rules, 8 the cover 1. Oktas out of 0..=8 are clamped; what is no number leaves the
     /// cover as it is. If the other parameters do not let the method show so much, as domes without a cover do, the answer is
     /// 1; if they show more without any cover, as the upper layer of [`Method::Packed`] may, it is 0.
-    pub fn cover_for_oktas(&self, params: &SkyParams, oktas: f32) -> f32 {
+    pub fn cover(&self, params: &SkyParams, oktas: f32) -> f32 {
         if oktas.is_nan() {
             return params.clamped().cover;
         }
         if oktas <= 0.0 || oktas >= OKTAS {
             return if oktas > 0.0 { 1.0 } else { 0.0 };
         }
-        let shows = |cover: f32| self.oktas(&SkyParams { cover, ..*params });
+        let shows = |cover: f32| self.shown(&SkyParams { cover, ..*params });
         let (mut low, mut high) = (0.0, 1.0);
         if shows(low) >= oktas {
             return low;
@@ -112,14 +117,14 @@ impl Facts {
     }
 
     /// How many oktas parameters show on average, 0..=8.
-    pub fn oktas(&self, params: &SkyParams) -> f32 {
+    pub fn shown(&self, params: &SkyParams) -> f32 {
         // Neither camera nor moment change what is read here.
         let camera = Camera::looking(0.0, 0.0, 1.0, [1, 1]);
-        let uniforms = self.uniforms(params, &camera, 0.0, 0.0);
+        let uniforms = self.facts.uniforms(params, &camera, 0.0, 0.0);
         let share = |opacity: f32| match params.method {
-            Method::Packed => self.distributions.packed_share(&uniforms.packed, opacity),
+            Method::Packed => self.packed_share(&uniforms.packed, opacity),
             Method::Octaves => octaves_share(&uniforms.octaves, opacity),
-            Method::Fbm => self.distributions.fbm_share(&uniforms.fbm, opacity),
+            Method::Fbm => self.fbm_share(&uniforms.fbm, opacity),
         };
         let [hazy, clearness] = haze(&uniforms);
         OKTAS * ((1.0 - hazy) * share(OPAQUE) + hazy * share(OPAQUE / clearness))
@@ -133,7 +138,7 @@ fn haze(uniforms: &Uniforms) -> [f32; 2] {
     [hazy, smoothstep(0.0, out, 0.5 * (out + LEAST_SINE))]
 }
 
-impl Distributions {
+impl Oktas {
     /// The share of places with more than this opacity, by the packed method.
     fn packed_share(&self, packed: &PackedUniforms, opacity: f32) -> f32 {
         let [cut, stretch, density, upper] = packed.shape;

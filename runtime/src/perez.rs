@@ -249,7 +249,7 @@ pub fn luminance_distribution(params: &PerezParams) -> Distribution {
             -0.0670 * t + 0.3703,
         ]),
         PerezShape::Cie(number) => {
-            let index = usize::from(number.clamp(1, 15)) - 1;
+            let index = usize::from(number).clamp(1, cie::SKIES.len()) - 1;
             Distribution::cie(cie::SKIES[index].numbers)
         }
         PerezShape::Custom(numbers) => Distribution::new(numbers),

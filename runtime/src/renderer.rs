@@ -68,7 +68,6 @@ struct Program {
     pipelines: [Option<[wgpu::RenderPipeline; 4]>; SkyModel::ALL.len()],
     flare: Option<wgpu::RenderPipeline>,
     map: OwnMap,
-    module: wgpu::ShaderModule,
 }
 
 /// The off-screen part of a method.
@@ -218,11 +217,6 @@ impl Sky {
         });
     }
 
-    /// The cover that shows a number of oktas: see [`Facts::cover_for_oktas`].
-    pub fn cover_for_oktas(&self, params: &SkyParams, oktas: f32) -> f32 {
-        self.facts.cover_for_oktas(params, oktas)
-    }
-
     /// Draws the prepared frame into a pass whose attachments are as the configuration said.
     ///
     /// Before the first [`Sky::prepare`] there is nothing to draw.
@@ -305,21 +299,21 @@ impl Sky {
                     .blends
                     .then(|| flare_pipeline(device, config, &module, layouts, method)),
                 map: match method {
+                    Method::Packed => OwnMap::None,
+                    Method::Octaves => OwnMap::Octaves(
+                        octaves_map::Pass::new(device, &module, layouts, octaves).into(),
+                    ),
                     Method::Fbm => {
                         OwnMap::Fbm(fbm_map::Pass::new(device, &module, layouts, &self.fbm).into())
                     }
-                    Method::Packed | Method::Octaves => OwnMap::None,
                 },
-                module,
             }
         };
         let program = slot.get_or_insert_with(new);
         program.pipelines[sky as usize]
             .get_or_insert_with(|| pipelines(device, config, &module(), layouts, method, mesh));
-        let fits = |map: &OwnMap| matches!(map, OwnMap::Octaves(pass) if pass.fits(octaves));
-        if method == Method::Octaves && !fits(&program.map) {
-            let pass = octaves_map::Pass::new(device, &program.module, layouts, octaves);
-            program.map = OwnMap::Octaves(pass.into());
+        if let OwnMap::Octaves(pass) = &mut program.map {
+            pass.fit(device, layouts, octaves);
         }
         program
     }

@@ -120,10 +120,10 @@ pub fn read(target: &wgpu::Texture) -> Vec<[f32; 4]> {
     read_level(target, 0)
 }
 
-/// The same of one level. A channel that the format lacks is 0, alpha 1.
+/// The same of one level.
 ///
 /// # Panics
-/// On formats other than R8Unorm, 8-bit RGBA and Rgba16Float, and if the device is lost.
+/// On formats other than 8-bit RGBA and Rgba16Float, and if the device is lost.
 pub fn read_level(target: &wgpu::Texture, level: u32) -> Vec<[f32; 4]> {
     let texel_bytes = target
         .format()
@@ -175,7 +175,6 @@ pub fn read_level(target: &wgpu::Texture, level: u32) -> Vec<[f32; 4]> {
 
 fn texel(bytes: &[u8]) -> [f32; 4] {
     match bytes.len() {
-        1 => [f32::from(bytes[0]) / 255.0, 0.0, 0.0, 1.0],
         4 => [0, 1, 2, 3].map(|c| f32::from(bytes[c]) / 255.0),
         8 => [0, 1, 2, 3]
             .map(|c| half::f16::from_le_bytes([bytes[2 * c], bytes[2 * c + 1]]).to_f32()),

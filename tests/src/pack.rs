@@ -82,6 +82,12 @@ pub fn in_skybox(radiance: f32) -> Pack {
 /// # Panics
 /// If that is no pack.
 pub fn with_skybox(size: u32, scene: impl Fn([f32; 3]) -> [f32; 4]) -> Pack {
+    let mut sources = sources();
+    sources.push(skybox(size, scene));
+    build(None, sources)
+}
+
+fn skybox(size: u32, scene: impl Fn([f32; 3]) -> [f32; 4]) -> Source {
     let face = |face| {
         let mut image = Image::new(size, size, 4);
         for (i, texel) in (0..).zip(image.texels.chunks_exact_mut(4)) {
@@ -90,13 +96,11 @@ pub fn with_skybox(size: u32, scene: impl Fn([f32; 3]) -> [f32; 4]) -> Pack {
         }
         image
     };
-    let mut sources = sources();
-    sources.push(Source {
+    Source {
         role: Role::Skybox,
         format: Format::Rgba16Float,
         images: (0..6).map(face).collect(),
-    });
-    build(None, sources)
+    }
 }
 
 /// The default recipe's pack by another seed, made so that a picture shows nothing but opacity: by night its clouds are black,
@@ -113,13 +117,7 @@ pub fn opacity_alone(seed: u64) -> Pack {
     for source in sources.iter_mut().filter(|s| s.role == Role::Sky) {
         source.images.iter_mut().for_each(|i| i.texels.fill(0.0));
     }
-    let mut white = Image::new(16, 16, 4);
-    white.texels.fill(1.0);
-    sources.push(Source {
-        role: Role::Skybox,
-        format: Format::Rgba16Float,
-        images: vec![white; 6],
-    });
+    sources.push(skybox(16, |_| [1.0; 4]));
     build(None, sources)
 }
 

@@ -5,9 +5,8 @@ use std::sync::OnceLock;
 
 use glam::Vec2;
 use welkin_pack::Pack;
-use welkin_runtime::frame::Facts;
 use welkin_runtime::oktas::{LEAST_SINE, OPAQUE};
-use welkin_runtime::{Camera, Method, Sky, SkyParams};
+use welkin_runtime::{Camera, Method, Oktas, Sky, SkyParams};
 use welkin_tests::{gpu, pack};
 
 /// Its opacities are within 1/2048.
@@ -93,23 +92,30 @@ fn seen(sky: &mut Sky, params: &SkyParams, frame: u32) -> f32 {
     (8.0 * covered / whole) as f32
 }
 
+/// A sky with its calibration.
+type Calibrated = (Sky, Oktas);
+
 /// Frames of every seed's sky, calibrated for so many oktas.
-fn sample(skies: &mut [Sky], params: &SkyParams, oktas: f32, frames: u32) -> Vec<f32> {
+fn sample(skies: &mut [Calibrated], params: &SkyParams, oktas: f32, frames: u32) -> Vec<f32> {
     let mut sample = Vec::new();
-    for sky in skies {
-        let cover = sky.cover_for_oktas(params, oktas);
+    for (sky, calibration) in skies {
+        let cover = calibration.cover(params, oktas);
         let params = SkyParams { cover, ..*params };
         sample.extend((0..frames).map(|frame| seen(sky, &params, frame)));
     }
     sample
 }
 
-fn skies() -> Vec<Sky> {
-    packs().iter().map(|pack| gpu::sky(pack, FORMAT)).collect()
+fn skies() -> Vec<Calibrated> {
+    let calibrated = |pack| {
+        let calibration = Oktas::new(pack).expect("the pack has every role");
+        (gpu::sky(pack, FORMAT), calibration)
+    };
+    packs().iter().map(calibrated).collect()
 }
 
 /// The mean of ten frames is what was asked for, and ten are enough to say so.
-fn assert_shows(name: &str, skies: &mut [Sky], params: &SkyParams, oktas: f32) {
+fn assert_shows(name: &str, skies: &mut [Calibrated], params: &SkyParams, oktas: f32) {
     let sample = sample(skies, params, oktas, FRAMES);
     let count = sample.len() as f32;
     let mean = sample.iter().sum::<f32>() / count;
@@ -186,37 +192,37 @@ fn so_they_do_with_other_parameters() {
 
 #[test]
 fn more_oktas_take_more_cover_and_the_calculation_goes_both_ways() {
-    let facts = Facts::new(pack::default_pack()).expect("the pack has every role");
+    let calibration = Oktas::new(pack::default_pack()).expect("the pack has every role");
     for method in Method::ALL {
         let params = black(method);
         let mut last = -1.0;
         for half in 0..=16 {
             let oktas = half as f32 / 2.0;
-            let cover = facts.cover_for_oktas(&params, oktas);
-            let back = facts.oktas(&SkyParams { cover, ..params });
+            let cover = calibration.cover(&params, oktas);
+            let back = calibration.shown(&SkyParams { cover, ..params });
             // The domes of octaves are averaged over 64 thicknesses, so the sky grows by steps of an eighth of an okta at most.
             assert!((back - oktas).abs() < 0.07, "{method:?} {oktas}: {back}");
             assert!(cover > last, "{method:?} {oktas}: {cover} after {last}");
             last = cover;
         }
-        assert_eq!(facts.cover_for_oktas(&params, -1.0), 0.0);
-        assert_eq!(facts.cover_for_oktas(&params, f32::INFINITY), 1.0);
-        assert_eq!(facts.cover_for_oktas(&params, f32::NAN), params.cover);
+        assert_eq!(calibration.cover(&params, -1.0), 0.0);
+        assert_eq!(calibration.cover(&params, f32::INFINITY), 1.0);
+        assert_eq!(calibration.cover(&params, f32::NAN), params.cover);
     }
 }
 
 #[test]
 fn what_cannot_be_shown_is_shown_as_far_as_it_can() {
-    let facts = Facts::new(pack::default_pack()).expect("the pack has every role");
+    let calibration = Oktas::new(pack::default_pack()).expect("the pack has every role");
     let mut without_domes = black(Method::Octaves);
     without_domes.octaves.domes = [0.0; 3];
-    assert_eq!(facts.cover_for_oktas(&without_domes, 4.0), 1.0);
-    assert_eq!(facts.oktas(&without_domes), 0.0);
+    assert_eq!(calibration.cover(&without_domes, 4.0), 1.0);
+    assert_eq!(calibration.shown(&without_domes), 0.0);
     let veiled = SkyParams {
         upper_layer: 1.0,
         cover: 0.0,
         ..black(Method::Packed)
     };
-    assert_eq!(facts.cover_for_oktas(&veiled, 0.5), 0.0);
-    assert!(facts.oktas(&veiled) > 0.5);
+    assert_eq!(calibration.cover(&veiled, 0.5), 0.0);
+    assert!(calibration.shown(&veiled) > 0.5);
 }

@@ -2,8 +2,7 @@
 
 use anyhow::{Result, ensure};
 use welkin_pack::{Pack, Role};
-use welkin_runtime::SkyParams;
-use welkin_runtime::frame::Facts;
+use welkin_runtime::{Oktas, SkyParams};
 use welkin_viewer::gpu::Gpu;
 use welkin_viewer::headless::render;
 use welkin_viewer::save::{save, target_for};
@@ -34,9 +33,9 @@ pub fn run(args: &RenderArgs) -> Result<()> {
 
 /// The cover that shows so many oktas; an error if no cover does.
 fn cover_for_oktas(pack: &Pack, params: &SkyParams, oktas: f32) -> Result<f32> {
-    let facts = Facts::new(pack)?;
-    let cover = facts.cover_for_oktas(params, oktas);
-    let shown = facts.oktas(&SkyParams { cover, ..*params });
+    let calibration = Oktas::new(pack)?;
+    let cover = calibration.cover(params, oktas);
+    let shown = calibration.shown(&SkyParams { cover, ..*params });
     ensure!(
         (shown - oktas).abs() <= MOST_OFF_OKTAS,
         "--oktas {oktas}: with the other options, --method {} shows {} {shown:.1} oktas; ask for that, or change its options",

@@ -1,48 +1,44 @@
-//! Distributions of numbers from 0 to 1, kept as histograms.
+//! Histograms: how numbers from 0 to 1 are distributed.
 
-/// A distribution of numbers 0..1, as shares at [`Distribution::POINTS`] evenly spaced points.
+/// The distribution of numbers 0..1, as shares at [`Histogram::POINTS`] evenly spaced points.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Distribution {
+pub(crate) struct Histogram {
     shares: Vec<f32>,
     /// Share above each point, its own counted half.
     above: Vec<f32>,
 }
 
-impl Distribution {
+impl Histogram {
     /// Twice as many steps as bytes have: each byte is a point.
     const POINTS: usize = 511;
-    const LAST: f32 = (Distribution::POINTS - 1) as f32;
+    const LAST: f32 = (Histogram::POINTS - 1) as f32;
 
     /// Of values, each counted once.
-    pub fn of(values: impl Iterator<Item = f32>) -> Distribution {
-        let mut shares = vec![0.0; Distribution::POINTS];
+    pub fn of(values: impl Iterator<Item = f32>) -> Histogram {
+        let mut shares = vec![0.0; Histogram::POINTS];
         for value in values {
-            shares[(value.clamp(0.0, 1.0) * Distribution::LAST + 0.5) as usize] += 1.0;
+            shares[(value.clamp(0.0, 1.0) * Histogram::LAST + 0.5) as usize] += 1.0;
         }
-        Distribution::new(shares)
+        Histogram::new(shares)
     }
 
     /// That of `f(a, b)`, 0..1, for independent a and b.
-    pub fn of_pairs(
-        a: &Distribution,
-        b: &Distribution,
-        f: impl Fn(f32, f32) -> f32,
-    ) -> Distribution {
-        let mut shares = vec![0.0; Distribution::POINTS];
+    pub fn of_pairs(a: &Histogram, b: &Histogram, f: impl Fn(f32, f32) -> f32) -> Histogram {
+        let mut shares = vec![0.0; Histogram::POINTS];
         for (a, share_a) in a.points() {
             for (b, share_b) in b.points() {
-                let place = f(a, b).clamp(0.0, 1.0) * Distribution::LAST;
+                let place = f(a, b).clamp(0.0, 1.0) * Histogram::LAST;
                 let (below, share) = (place as usize, share_a * share_b);
                 // Between two points, so that the mean stays.
                 let second = share * (place - below as f32);
                 shares[below] += share - second;
-                shares[(below + 1).min(Distribution::POINTS - 1)] += second;
+                shares[(below + 1).min(Histogram::POINTS - 1)] += second;
             }
         }
-        Distribution::new(shares)
+        Histogram::new(shares)
     }
 
-    fn new(mut shares: Vec<f32>) -> Distribution {
+    fn new(mut shares: Vec<f32>) -> Histogram {
         let sum = shares.iter().sum::<f32>().max(f32::MIN_POSITIVE);
         shares.iter_mut().for_each(|share| *share /= sum);
         let mut left = 1.0;
@@ -50,7 +46,7 @@ impl Distribution {
             left -= share;
             (left + 0.5 * share).max(0.0)
         });
-        Distribution {
+        Histogram {
             above: above.collect(),
             shares,
         }
@@ -58,7 +54,7 @@ impl Distribution {
 
     /// The points that occur, with their shares.
     fn points(&self) -> impl Iterator<Item = (f32, f32)> {
-        let at = |(i, share): (usize, &f32)| (i as f32 / Distribution::LAST, *share);
+        let at = |(i, share): (usize, &f32)| (i as f32 / Histogram::LAST, *share);
         self.shares
             .iter()
             .enumerate()
@@ -73,10 +69,10 @@ impl Distribution {
 
     /// The share above a number.
     pub fn above(&self, value: f32) -> f32 {
-        let place = value * Distribution::LAST;
+        let place = value * Histogram::LAST;
         if place < 0.0 {
             1.0
-        } else if place < Distribution::LAST {
+        } else if place < Histogram::LAST {
             let point = place as usize;
             let [near, far] = [self.above[point], self.above[point + 1]];
             near + (far - near) * (place - point as f32)
@@ -90,8 +86,8 @@ impl Distribution {
 mod tests {
     use super::*;
 
-    fn even() -> Distribution {
-        Distribution::of((0..=255).map(|i| i as f32 / 255.0))
+    fn even() -> Histogram {
+        Histogram::of((0..=255).map(|i| i as f32 / 255.0))
     }
 
     #[test]
@@ -109,7 +105,7 @@ mod tests {
     #[test]
     fn independent_numbers_fold() {
         // The mean of two even numbers has a triangle: above x in the upper half are 2 (1 - x)^2.
-        let triangle = Distribution::of_pairs(&even(), &even(), |a, b| 0.5 * (a + b));
+        let triangle = Histogram::of_pairs(&even(), &even(), |a, b| 0.5 * (a + b));
         for x in [0.5, 0.7, 0.9] {
             let exact = 2.0 * (1.0 - x) * (1.0 - x);
             assert!((triangle.above(x) - exact).abs() < 0.004, "{x}");
