@@ -119,7 +119,7 @@ pub(crate) fn decode(bytes: &[u8], file: &str) -> Result<Image, BakeError> {
             return Ok(());
         }
         let expected = format!("{MIN_SIDE} to {MAX_SIDE} texels a side; resize it");
-        Err(unfit(file, "size", format!("{width}x{height}"), expected))
+        Err(unfit_size(file, [width, height], expected))
     })?;
     Ok(to_image(picture))
 }
@@ -206,6 +206,11 @@ fn to_image(picture: DynamicImage) -> Image {
         channels: 3,
         texels,
     }
+}
+
+/// An error about the size of a picture.
+pub(crate) fn unfit_size(file: &str, [width, height]: [u32; 2], expected: String) -> BakeError {
+    unfit(file, "size", format!("{width}x{height}"), expected)
 }
 
 /// An error about what a picture is.

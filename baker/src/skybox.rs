@@ -21,7 +21,7 @@ use welkin_pack::format::CUBE_FACES;
 use welkin_pack::mapping::{cube_texel, cube_to_direction, direction_to_cube};
 
 use crate::error::BakeError;
-use crate::load::{self, Picture, unfit};
+use crate::load::{self, Picture, unfit_size};
 use crate::settings::{SkyboxPicture, SkyboxSettings};
 
 /// Sides that a picture of a face may have, in texels: no more than a pack's faces have.
@@ -91,12 +91,7 @@ fn panorama(picture: &Picture, azimuth_rad: f32) -> Result<Scene, BakeError> {
         let expected = format!(
             "a panorama twice as wide as high, of {least} to {most} rows; crop or resize it, or give `faces`"
         );
-        Err(unfit(
-            &picture.file,
-            "size",
-            format!("{width}x{height}"),
-            expected,
-        ))
+        Err(unfit_size(&picture.file, [width, height], expected))
     })?;
     Ok(Scene::Panorama {
         picture: decoded,
@@ -119,12 +114,7 @@ fn faces(pictures: &[Picture]) -> Result<Scene, BakeError> {
                 None => format!("a square of {least} to {most} texels a side"),
             };
             let expected = format!("{expected}; crop or resize it");
-            Err(unfit(
-                &picture.file,
-                "size",
-                format!("{width}x{height}"),
-                expected,
-            ))
+            Err(unfit_size(&picture.file, [width, height], expected))
         })?;
         turn(&mut decoded, face);
         faces.push(decoded);

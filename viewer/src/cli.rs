@@ -8,7 +8,8 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use welkin_runtime::Method;
 
 pub use render::RenderArgs;
@@ -105,6 +106,16 @@ impl Cli {
         }
         Ok(cli)
     }
+}
+
+/// Whether an option stands on the command line.
+fn is_given(given: &ArgMatches, option: &str) -> bool {
+    given.value_source(option) == Some(ValueSource::CommandLine)
+}
+
+/// Says that an option is for another choice than the one that was made, and what to do.
+fn belongs(option: &str, owner: &str, chosen: &str, remedy: &str) -> String {
+    format!("--{option} belongs to {owner}, and {chosen} does not use it; leave it out or {remedy}")
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use image::{DynamicImage, ImageFormat, Rgba};
 use welkin_pack::Image;
 
-use super::{MAX_SIDE, Picture, decode_stored, exr, hdr, unfit};
+use super::{MAX_SIDE, Picture, decode_stored, exr, hdr, unfit, unfit_size};
 use crate::error::BakeError;
 
 /// The most texels of a sky: 8192x4096, which take 512 MiB as floats.
@@ -31,7 +31,7 @@ pub(crate) fn decode_sky(
         if u64::from(width) * u64::from(height) > MAX_SKY_TEXELS || width.max(height) > MAX_SIDE {
             let expected =
                 format!("at most {MAX_SKY_TEXELS} texels and {MAX_SIDE} a side; resize it");
-            return Err(unfit(file, "size", format!("{width}x{height}"), expected));
+            return Err(unfit_size(file, [width, height], expected));
         }
         fits(width, height)
     };

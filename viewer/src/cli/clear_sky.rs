@@ -1,12 +1,11 @@
 //! The options of the clear sky's model.
 
-use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, ValueEnum};
 use welkin_runtime::cie::LAST_OVERCAST;
-use welkin_runtime::perez::CUSTOM;
 use welkin_runtime::{PerezParams, PerezShape, SkyModel};
 
-use super::values::{cie_type, perez, turbidity};
+use super::values::{cie_type, perez, perez_ranges, turbidity};
+use super::{belongs, is_given};
 
 /// What only the Perez sky knows: see [`OWN`].
 #[derive(Debug, Args)]
@@ -44,10 +43,9 @@ impl From<SkyName> for SkyModel {
 }
 
 fn perez_help() -> String {
-    let ranges = CUSTOM.map(|[low, high]| format!("{low} to {high}"));
     format!(
         "perez: luminance by five numbers of one's own, {} [default: by the turbidity]",
-        ranges.join(", ")
+        perez_ranges()
     )
 }
 
@@ -68,18 +66,19 @@ impl ClearSkyArgs {
     /// # Errors
     /// Which option it is, and whose.
     pub fn refuse_others(&self, given: &ArgMatches) -> Result<(), String> {
-        let is_given =
-            |option: &&&str| given.value_source(option) == Some(ValueSource::CommandLine);
         if self.sky == SkyName::Gradient {
-            return match OWN.iter().find(is_given) {
+            return match OWN.iter().find(|option| is_given(given, option)) {
                 None => Ok(()),
-                Some(option) => Err(format!(
-                    "--{option} belongs to --sky perez, and --sky gradient does not use it; leave it out or add --sky perez"
+                Some(option) => Err(belongs(
+                    option,
+                    "--sky perez",
+                    "--sky gradient",
+                    "add --sky perez",
                 )),
             };
         }
         match self.cie {
-            Some(number @ ..=LAST_OVERCAST) if is_given(&&"turbidity") => Err(format!(
+            Some(number @ ..=LAST_OVERCAST) if is_given(given, "turbidity") => Err(format!(
                 "--turbidity colours clear skies, and --cie {number} is overcast and white; leave it out or take --cie {} to 15",
                 LAST_OVERCAST + 1
             )),

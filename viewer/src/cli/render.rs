@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, ValueEnum};
 use welkin_runtime::{Camera, FbmParams, Method, OctaveParams, SkyParams};
 use welkin_viewer::headless::View;
@@ -12,6 +11,7 @@ use super::values::{
     azimuth_deg, elevation_deg, formation_interval_s, fov_deg, octaves, oktas, place_m, seconds,
     size, three_units, unit,
 };
+use super::{belongs, is_given};
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {
@@ -242,19 +242,18 @@ impl RenderArgs {
     pub fn refuse_others(&self, given: &ArgMatches) -> Result<(), String> {
         self.clear_sky.refuse_others(given)?;
         let method = Method::from(self.method);
-        let stray = OWNERS.iter().find(|(option, owners)| {
-            given.value_source(option) == Some(ValueSource::CommandLine)
-                && !owners.contains(&method)
-        });
+        let stray = OWNERS
+            .iter()
+            .find(|(option, owners)| is_given(given, option) && !owners.contains(&method));
         let Some((option, owners)) = stray else {
             return Ok(());
         };
-        let option = option.replace('_', "-");
         let owners = owners.iter().map(|m| m.name()).collect::<Vec<_>>();
-        Err(format!(
-            "--{option} belongs to --method {}, and --method {} does not use it; leave it out or change the method",
-            owners.join(" or "),
-            method.name()
+        Err(belongs(
+            &option.replace('_', "-"),
+            &format!("--method {}", owners.join(" or ")),
+            &format!("--method {}", method.name()),
+            "change the method",
         ))
     }
 }

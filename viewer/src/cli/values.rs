@@ -71,26 +71,32 @@ pub fn cie_type(text: &str) -> Result<u8, String> {
 
 /// Five numbers between commas, each in its range.
 pub fn perez(text: &str) -> Result<[f32; 5], String> {
-    let numbers: Option<Vec<f32>> = text
-        .split(',')
-        .map(|part| part.trim().parse().ok())
-        .collect();
-    let numbers: Option<[f32; 5]> = numbers.and_then(|numbers| numbers.try_into().ok());
-    let inside = |(number, [low, high]): (&f32, [f32; 2])| (low..=high).contains(number);
-    numbers
-        .filter(|numbers| numbers.iter().zip(CUSTOM).all(inside))
-        .ok_or_else(|| {
-            let ranges = CUSTOM.map(|[low, high]| format!("{low} to {high}"));
-            format!("expected five numbers: {}", ranges.join(", "))
-        })
+    between_commas(text, CUSTOM).ok_or_else(|| format!("expected five numbers: {}", perez_ranges()))
+}
+
+/// The ranges of [`perez`] in words.
+pub fn perez_ranges() -> String {
+    CUSTOM
+        .map(|[low, high]| format!("{low} to {high}"))
+        .join(", ")
 }
 
 /// Three numbers from 0 to 1, between commas.
 pub fn three_units(text: &str) -> Result<[f32; 3], String> {
-    let numbers: Option<Vec<f32>> = text.split(',').map(|part| unit(part.trim()).ok()).collect();
-    numbers
-        .and_then(|numbers| numbers.try_into().ok())
+    between_commas(text, [[0.0, 1.0]; 3])
+        .map(|numbers| numbers.map(|v: f64| v as f32))
         .ok_or_else(|| "expected three numbers from 0 to 1, such as 0.2,0.5,1".to_string())
+}
+
+/// Numbers between commas, each from the first to the second number of its range.
+fn between_commas<T: FromStr + PartialOrd, const N: usize>(
+    text: &str,
+    ranges: [[T; 2]; N],
+) -> Option<[T; N]> {
+    let parts = text.split(',').map(|part| part.trim().parse().ok());
+    let numbers: [T; N] = parts.collect::<Option<Vec<T>>>()?.try_into().ok()?;
+    let inside = |(number, [low, high]): (&T, &[T; 2])| (low..=high).contains(&number);
+    numbers.iter().zip(&ranges).all(inside).then_some(numbers)
 }
 
 pub fn size(text: &str) -> Result<[u32; 2], String> {
