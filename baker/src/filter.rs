@@ -39,6 +39,13 @@ pub(crate) fn plane(width: u32, height: u32, value: impl Fn(u32, u32) -> f32 + S
     image
 }
 
+/// A square image of one channel from a function of (u, v) at the texels' centres.
+pub(crate) fn tile(size: u32, value: impl Fn([f64; 2]) -> f64 + Sync) -> Image {
+    plane(size, size, |x, y| {
+        value([x, y].map(|i| (f64::from(i) + 0.5) / f64::from(size))) as f32
+    })
+}
+
 /// Convolution with a Gaussian of standard deviation `sigma` texels, cut at three of them.
 pub(crate) fn gaussian_blur(image: &Image, sigma: f32, edge: Edge) -> Image {
     let radius = libm::ceilf(3.0 * sigma) as isize;

@@ -13,7 +13,7 @@
 //! use std::ops::ControlFlow;
 //! let resolved = welkin_baker::Recipe::default().resolve(Some(7))?;
 //! let images = welkin_baker::sources(&resolved, None, &|_| ControlFlow::Continue(()))?;
-//! assert_eq!(images.len(), 8);
+//! assert_eq!(images.len(), 9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -23,7 +23,10 @@ mod error;
 mod fbm;
 mod filter;
 mod flares;
+mod fractal;
 mod galaxy;
+mod lattice;
+mod layers;
 mod load;
 mod octaves;
 mod recipe;
@@ -41,5 +44,6 @@ pub use load::read_photo;
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
     CloudSettings, FbmSettings, FlareSettings, FractalSettings, GalaxySettings, GradientSettings,
-    PhotoSettings, Resolved, SkySettings, SkyboxPicture, SkyboxSettings, StarSettings, SunSettings,
+    LayerSettings, LayersSettings, PhotoSettings, Resolved, SkySettings, SkyboxPicture,
+    SkyboxSettings, StarSettings, SunSettings,
 };

@@ -39,6 +39,7 @@ pub(crate) struct Tables {
     pub sun: Sun,
     pub fbm: Fbm,
     pub flares: Flares,
+    pub layers: Layers,
     pub skybox: Option<Spanned<Skybox>>,
 }
 
@@ -120,6 +121,24 @@ pub(crate) struct Fbm {
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct Flares {
     pub size: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Layers {
+    pub size: Entry,
+    pub stratocumulus: Layer,
+    pub cumulus: Layer,
+    pub cirrus: Layer,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Layer {
+    pub cells: Entry,
+    pub octaves: Entry,
+    pub gain: Entry,
+    pub relief: Entry,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]

@@ -1,5 +1,6 @@
 //! The recipe as it is used: defaults filled, types and ranges checked. Later stages never see TOML.
 
+mod layers;
 mod skybox;
 
 use std::f32::consts::PI;
@@ -50,6 +51,7 @@ impl Recipe {
             flares: FlareSettings {
                 size: self.size("flares.size", &t.flares.size, 256, 64, 1024)?,
             },
+            layers: self.layers()?,
             skybox: self.skybox()?,
         })
     }

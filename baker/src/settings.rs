@@ -25,6 +25,8 @@ pub struct Resolved {
     pub fbm: FbmSettings,
     /// The lens flare.
     pub flares: FlareSettings,
+    /// Layers of clouds.
+    pub layers: LayersSettings,
     /// The skybox, if the recipe names a picture.
     pub skybox: Option<SkyboxSettings>,
 }
@@ -139,6 +141,28 @@ pub struct FbmSettings {
 pub struct FlareSettings {
     /// Texels a side of the atlas, a power of two.
     pub size: u32,
+}
+
+/// Layers of clouds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LayersSettings {
+    /// Texels a side, a power of two.
+    pub size: u32,
+    /// One a kind, in the order of [`welkin_pack::LayerKind::ALL`].
+    pub kinds: [LayerSettings; 3],
+}
+
+/// One kind of cloud in a layer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LayerSettings {
+    /// Clouds across the tile.
+    pub cells: u32,
+    /// Octaves of the noise that shapes them; each is twice as fine as the one before.
+    pub octaves: u32,
+    /// Amplitude of an octave as a share of the one before.
+    pub gain: f32,
+    /// Root mean square slope of the cloud's surface.
+    pub relief: f32,
 }
 
 /// The skybox.

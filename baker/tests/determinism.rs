@@ -45,6 +45,7 @@ fn another_seed_changes_every_random_channel_and_no_other() {
         (Role::Octaves, 3),
         (Role::Fbm, 3),
         (Role::Flares, 0),
+        (Role::Layers, 2),
     ] {
         assert!(
             channel(&one, role, c) != channel(&two, role, c),
@@ -84,6 +85,7 @@ fn settings_of_one_channel_leave_the_others_alone() {
         Role::Octaves,
         Role::Fbm,
         Role::Flares,
+        Role::Layers,
     ] {
         assert!(image(&plain, role) == image(&noise, role), "{role:?}");
     }
@@ -95,6 +97,10 @@ fn settings_of_one_channel_leave_the_others_alone() {
     let more = bake_images(&format!("{SMALL}[fbm]\noctaves = 5\n"), None);
     let (few, many) = (images(&plain, Role::Fbm), images(&more, Role::Fbm));
     assert!(many.len() == 5 && few == &many[..4]);
+    // Each kind of cloud has a stream and settings of its own.
+    let heaps = bake_images(&format!("{SMALL}[layers.cumulus]\ncells = 5\n"), None);
+    let (before, after) = (images(&plain, Role::Layers), images(&heaps, Role::Layers));
+    assert!(before[0] == after[0] && before[1] != after[1] && before[2] == after[2]);
 }
 
 #[test]

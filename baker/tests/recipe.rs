@@ -32,6 +32,12 @@ fn unknown_keys_and_broken_text_are_told_with_their_place() {
         ("name = \"a\"\nseed = = 2\n", 2, 8, ""),
         ("clouds = 3\n", 1, 10, "expected"),
         ("seed = 1\nseed = 2\n", 2, 1, "duplicate"),
+        (
+            "[layers.stratus]\ncells = 3\n",
+            1,
+            9,
+            "expected one of `size`, `stratocumulus`, `cumulus`, `cirrus`",
+        ),
     ];
     for (text, line, column, word) in cases {
         match resolve(text) {
@@ -221,6 +227,54 @@ fn values_of_the_wrong_type_or_out_of_range_are_told_with_key_and_place() {
             "1000.0",
             "power of two from 64 to 1024",
         ),
+        (
+            "layers.size = 100",
+            "layers.size",
+            "100",
+            "power of two from 64 to 1024",
+        ),
+        (
+            "layers.stratocumulus.cells = 1",
+            "layers.stratocumulus.cells",
+            "1",
+            "an integer from 2 to 32",
+        ),
+        (
+            "layers.cumulus.cells = 17",
+            "layers.cumulus.cells",
+            "17",
+            "an integer from 2 to 16",
+        ),
+        (
+            "layers.cirrus.cells = 11",
+            "layers.cirrus.cells",
+            "11",
+            "an integer from 2 to 10",
+        ),
+        (
+            "layers.cirrus.octaves = 9",
+            "layers.cirrus.octaves",
+            "9",
+            "an integer from 1 to 8",
+        ),
+        (
+            "layers.cumulus.gain = -0.1",
+            "layers.cumulus.gain",
+            "-0.1",
+            "a number from 0 to 1",
+        ),
+        (
+            "layers.cirrus.relief = 0",
+            "layers.cirrus.relief",
+            "0",
+            "a number from 0.1 to 2",
+        ),
+        (
+            "layers.stratocumulus.relief = nan",
+            "layers.stratocumulus.relief",
+            "nan",
+            "a number from 0.1 to 2",
+        ),
     ];
     for (text, key, found, expected) in cases {
         let text = format!("# a comment\n{text}\n");
@@ -268,6 +322,8 @@ fn small_sizes_have_defaults_that_fit_them() {
     assert_eq!(resolved.clouds.detail.cells, 8);
     assert_eq!(resolved.stars.count, 128);
     assert_eq!((resolved.fbm.cells, resolved.fbm.octaves), (8, 3));
+    let resolved = resolve("[layers]\nsize = 64\n").unwrap();
+    assert_eq!(resolved.layers.kinds.map(|kind| kind.cells), [8, 4, 2]);
 }
 
 #[test]

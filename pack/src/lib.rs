@@ -10,6 +10,7 @@ pub mod ktx;
 #[cfg(test)]
 #[cfg(feature = "write")]
 mod ktx_tests;
+pub mod layer_kind;
 pub mod limits;
 pub mod manifest;
 pub mod mapping;
@@ -31,6 +32,7 @@ pub mod texture;
 pub use error::PackError;
 pub use format::{Format, Shape};
 pub use image::Image;
+pub use layer_kind::LayerKind;
 pub use manifest::Manifest;
 pub use mapping::FlareCell;
 pub use pack::Pack;
@@ -38,7 +40,7 @@ pub use pack::Pack;
 pub use pack::{Overwrite, PackInfo, Source};
 pub use role::Role;
 pub use texel::{
-    CloudTexel, FbmTexel, FlareTexel, GalaxyTexel, OctaveTexel, SkyTexel, SkyboxTexel, StarTexel,
-    SunTexel,
+    CloudTexel, FbmTexel, FlareTexel, GalaxyTexel, LayerTexel, OctaveTexel, SkyTexel, SkyboxTexel,
+    StarTexel, SunTexel,
 };
 pub use texture::Texture;

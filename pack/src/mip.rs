@@ -2,7 +2,9 @@
 //!
 //! Every level is filtered from the linear image above it and quantised once, so that errors do not add
 //! up. Amounts are averaged over 2x2 texels. The sunset gradient keeps its first and last row. Stars keep
-//! their light: see [`stars`].
+//! their light: see [`stars`]. Normals keep their length: see `layers.rs`.
+
+mod layers;
 
 use crate::texture::encode;
 use crate::{Format, Image, Role, Texture};
@@ -34,6 +36,7 @@ fn levels_of(role: Role, format: Format, image: Image) -> Vec<Vec<u8>> {
         if index > 0 {
             level = match role {
                 Role::Stars => stars(&level),
+                Role::Layers => layers::halve(&level),
                 _ => halve(&level),
             };
         }
@@ -50,11 +53,13 @@ fn levels_of(role: Role, format: Format, image: Image) -> Vec<Vec<u8>> {
 
 /// Averages 2x2 texels (2x1 or 1x2 where a side is already one texel). Sides are powers of two.
 pub(crate) fn halve(image: &Image) -> Image {
-    fold(image, |texels, out| {
-        for (channel, value) in out.iter_mut().enumerate() {
-            *value = texels.iter().map(|t| t[channel]).sum::<f32>() / texels.len() as f32;
-        }
-    })
+    fold(image, mean)
+}
+
+fn mean(texels: &[&[f32]], out: &mut [f32]) {
+    for (channel, value) in out.iter_mut().enumerate() {
+        *value = texels.iter().map(|t| t[channel]).sum::<f32>() / texels.len() as f32;
+    }
 }
 
 /// Averages star records so that light is kept.

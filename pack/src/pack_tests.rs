@@ -52,6 +52,7 @@ fn a_saved_pack_opens_as_it_was() {
             "fbm.ktx2",
             "flares.ktx2",
             "galaxy.ktx2",
+            "layers.ktx2",
             "octaves.ktx2",
             "pack.json",
             "sky.ktx2",
@@ -186,12 +187,12 @@ fn open_with_manifest(change: impl Fn(&str) -> String) -> String {
 #[test]
 fn another_version_is_refused_for_its_version() {
     let error = open_with_manifest(|text| {
-        text.replace("\"version\": 2", "\"version\": 1")
+        text.replace("\"version\": 3", "\"version\": 2")
             .replace("\"seed\"", "\"seeds\"")
     });
     assert_eq!(
         error,
-        "p/pack.json: version is 1, expected 2; use a welkin that knows this version, or bake again"
+        "p/pack.json: version is 2, expected 3; use a welkin that knows this version, or bake again"
     );
 }
 
@@ -282,6 +283,10 @@ fn layers_that_do_not_fit_their_role_are_refused() {
         blamed(Role::Flares, &|i| i[0] = Image::new(32, 32, 1)),
         "flares.ktx2: width is 32, expected a power of two from 64 to 1024"
     );
+    assert_eq!(
+        blamed(Role::Layers, &|i| i.truncate(2)),
+        "layers.ktx2: layers is 2, expected 3"
+    );
 }
 
 /// A source of `layers` images of noise.
@@ -337,6 +342,13 @@ proptest! {
             prop_assert!((channel.mean - mean).abs() < 1e-6);
         }
     }
+}
+
+#[test]
+fn normals_that_cannot_be_leave_no_level_without_numbers() {
+    let pack = Pack::build(info(), vec![noisy(Role::Layers, 64, 3, 1)]).unwrap();
+    let texture = pack.texture(Role::Layers).unwrap();
+    assert_eq!(texture.levels.len(), 7);
 }
 
 #[test]

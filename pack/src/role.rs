@@ -5,7 +5,7 @@ mod specs;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Format, PackError, Shape};
+use crate::{Format, LayerKind, PackError, Shape};
 
 /// What a texture is for.
 #[derive(
@@ -29,6 +29,8 @@ pub enum Role {
     Fbm,
     /// The parts of a lens flare.
     Flares,
+    /// Layers of clouds of Mukhina and Bezgodov: normal, density and rank.
+    Layers,
     /// A picture of a sky around the viewer.
     Skybox,
 }
@@ -91,7 +93,7 @@ pub struct RoleSpec {
 
 impl Role {
     /// Every role, in the order in which a manifest lists them.
-    pub const ALL: [Role; 9] = [
+    pub const ALL: [Role; 10] = [
         Role::Clouds,
         Role::Stars,
         Role::Galaxy,
@@ -100,6 +102,7 @@ impl Role {
         Role::Octaves,
         Role::Fbm,
         Role::Flares,
+        Role::Layers,
         Role::Skybox,
     ];
 
@@ -114,6 +117,7 @@ impl Role {
             Role::Octaves => "octaves",
             Role::Fbm => "fbm",
             Role::Flares => "flares",
+            Role::Layers => "layers",
             Role::Skybox => "skybox",
         }
     }
@@ -129,6 +133,7 @@ impl Role {
             Role::Octaves => &specs::OCTAVES,
             Role::Fbm => &specs::FBM,
             Role::Flares => &specs::FLARES,
+            Role::Layers => &specs::LAYERS,
             Role::Skybox => &specs::SKYBOX,
         }
     }
@@ -136,6 +141,14 @@ impl Role {
     /// Whether a pack may do without it.
     pub const fn is_optional(self) -> bool {
         matches!(self, Role::Skybox)
+    }
+
+    /// What image `layer` (from 0) of a level is called: a kind of cloud, or what its shape calls it.
+    pub fn layer_name(self, layer: u32) -> Option<String> {
+        match self {
+            Role::Layers => Some(LayerKind::ALL.get(layer as usize)?.name().to_string()),
+            _ => self.spec().shape.layer_name(layer),
+        }
     }
 
     /// The file that holds it in a pack.

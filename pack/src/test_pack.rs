@@ -50,6 +50,7 @@ pub(crate) fn sources() -> Vec<Source> {
         source(Role::Octaves, vec![octaves()]),
         source(Role::Fbm, fbm()),
         source(Role::Flares, vec![flares(64)]),
+        source(Role::Layers, layers()),
         source(Role::Skybox, (0..6).map(|face| skybox(face, 16)).collect()),
     ]
 }
@@ -83,7 +84,7 @@ pub(crate) fn clouds(size: u32) -> Image {
 }
 
 /// A sum of waves that fit into the tile, from 0 to 1.
-fn waves(size: u32, seed: u64) -> Vec<f32> {
+pub(crate) fn waves(size: u32, seed: u64) -> Vec<f32> {
     let mut stream = Stream::new(seed);
     let waves: Vec<[f32; 3]> = (0..40)
         .map(|_| {
@@ -237,6 +238,32 @@ fn flares(size: u32) -> Image {
             let radius = libm::sqrtf(unit(x) * unit(x) + unit(y) * unit(y));
             image.texel_mut(x, y)[0] = ((0.8 - radius) / 0.2).clamp(0.0, 1.0);
         }
+    }
+    image
+}
+
+pub(crate) fn layers() -> Vec<Image> {
+    [31, 32, 33].map(|seed| layer(&waves(64, seed))).into()
+}
+
+/// A layer of the role `layers` with this density and a root mean square slope of 0.7.
+pub(crate) fn layer(density: &[f32]) -> Image {
+    let size = density.len().isqrt();
+    let at = |x: usize, y: usize| density[y % size * size + x % size];
+    let differences: Vec<[f32; 2]> = (0..density.len())
+        .map(|i| (i % size + size, i / size + size))
+        .map(|(x, y)| [at(x + 1, y) - at(x - 1, y), at(x, y + 1) - at(x, y - 1)])
+        .collect();
+    let squares: f32 = differences.iter().flatten().map(|d| d * d).sum();
+    let scale = 0.7 / libm::sqrtf(squares / density.len() as f32);
+    let mut order: Vec<usize> = (0..density.len()).collect();
+    order.sort_by(|&a, &b| density[a].total_cmp(&density[b]));
+    let mut image = Image::new(size as u32, size as u32, 4);
+    for (rank, i) in order.into_iter().enumerate() {
+        let [x, y] = differences[i].map(|d| -scale * d);
+        let [x, y] = [x, y].map(|n| 0.5 + 0.5 * n / libm::sqrtf(1.0 + x * x + y * y));
+        let rank = (256 * rank / density.len()) as f32 / 255.0;
+        image.texels[4 * i..][..4].copy_from_slice(&[x, y, density[i], rank]);
     }
     image
 }

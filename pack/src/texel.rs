@@ -3,6 +3,10 @@
 //! Every field is the value a shader reads from a unorm texture, 0..1. The ranges that turn them into
 //! physical units are in [`crate::role`] and in every manifest.
 
+mod layers;
+
+pub use layers::LayerTexel;
+
 use crate::Format;
 use crate::texture::{encode, unorm8};
 
@@ -280,6 +284,7 @@ mod tests {
             prop_assert_eq!(OctaveTexel::decode(bytes).encode(), bytes);
             prop_assert_eq!(FbmTexel::decode(bytes).encode(), bytes);
             prop_assert_eq!(FlareTexel::decode([a]).encode(), [a]);
+            prop_assert_eq!(LayerTexel::decode(bytes).encode(), bytes);
         }
 
         #[test]

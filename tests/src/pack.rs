@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use welkin_baker::Resolved;
 use welkin_pack::mapping::cube_to_direction;
-use welkin_pack::{Format, Image, Pack, PackInfo, Role, Source};
+use welkin_pack::{Format, Image, LayerKind, Pack, PackInfo, Role, Source};
 
 /// The default recipe's pack, baked once a test program.
 ///
@@ -154,4 +154,25 @@ pub fn stars_alone() -> Pack {
         Role::Galaxy => image.texels.fill(0.0),
         _ => {}
     })
+}
+
+/// The default pack without the light of the sky, in a black skybox: a picture shows nothing but what sun or moon make of
+/// clouds. `change` gets the linear image of each kind of layer.
+///
+/// # Panics
+/// If that is no pack.
+pub fn lit_alone(change: impl Fn(LayerKind, &mut Image)) -> Pack {
+    let mut sources = sources();
+    for source in &mut sources {
+        match source.role {
+            Role::Sky => source.images.iter_mut().for_each(|i| i.texels.fill(0.0)),
+            Role::Layers => {
+                let kinds = LayerKind::ALL.into_iter().zip(&mut source.images);
+                kinds.for_each(|(kind, image)| change(kind, image));
+            }
+            _ => {}
+        }
+    }
+    sources.push(skybox(16, |_| [0.0, 0.0, 0.0, 1.0]));
+    build(None, sources)
 }

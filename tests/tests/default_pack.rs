@@ -15,6 +15,10 @@ const MOST_BYTES_PACKED: usize = 1_600_000;
 /// noise at most, since three of its four channels are the fourth displaced, and 60 kB for the rest.
 const MOST_BYTES_MORE: usize = 4 * 256 * 256 * 4 / 2 + 60_000;
 
+/// What three layers of clouds may take: no more than their bytes, of which four thirds are all levels, since every byte
+/// of a rank comes equally often and the others are hardly more predictable.
+const MOST_BYTES_LAYERS: usize = 3 * 256 * 256 * 4 * 4 / 3;
+
 fn assert_sound(pack: &Pack) {
     let place = tempfile::tempdir().unwrap();
     let folder = place.path().join("pack");
@@ -28,8 +32,12 @@ fn assert_sound(pack: &Pack) {
 fn it_is_sound_and_small() {
     let pack = default_pack();
     assert_sound(pack);
+    let layers = pack.manifest().texture(Role::Layers).unwrap().file_bytes as usize;
+    assert!(layers < MOST_BYTES_LAYERS, "{layers} bytes");
     let more = [Role::Octaves, Role::Fbm, Role::Flares].map(Role::file);
-    let (more, packed): (Vec<_>, Vec<_>) = pack.files().iter().partition(|(n, _)| more.contains(n));
+    let files = pack.files().iter();
+    let files = files.filter(|(name, _)| *name != Role::Layers.file());
+    let (more, packed): (Vec<_>, Vec<_>) = files.partition(|(n, _)| more.contains(n));
     let bytes = |files: &[&(String, Vec<u8>)]| files.iter().map(|(_, b)| b.len()).sum::<usize>();
     let (more, packed) = (bytes(&more), bytes(&packed));
     assert!(packed < MOST_BYTES_PACKED, "{packed} bytes");
@@ -47,6 +55,9 @@ fn it_is_sound_with_other_seeds_sizes_and_half_floats() {
         "[clouds]\nsize = 256\n[fbm]\nsize = 64\ncells = 4\n[flares]\nsize = 64",
         "[clouds]\nsize = 256\n[fbm]\nsize = 512\noctaves = 6\n[flares]\nsize = 1024",
         "[clouds]\nsize = 256\n[fbm]\ncells = 128\noctaves = 1",
+        "seed = 3\n[clouds]\nsize = 256\n[layers]\nsize = 64",
+        "seed = 4\n[clouds]\nsize = 256\n[layers]\nsize = 512\n[layers.cirrus]\nrelief = 2\n[layers.cumulus]\nrelief = 0.1",
+        "seed = 5\n[clouds]\nsize = 256\n[layers.stratocumulus]\ncells = 32\n[layers.cirrus]\ncells = 10\noctaves = 8\ngain = 1",
     ] {
         let resolved = Recipe::parse("r.toml", text)
             .unwrap()

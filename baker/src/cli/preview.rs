@@ -76,7 +76,7 @@ fn section(image: &Image, entry: &TextureEntry, layer: u32) -> Section {
     if entry.role == Role::Sky {
         panels.insert(0, sky_panel(image));
     }
-    let layer = entry.shape.layer_name(layer);
+    let layer = entry.role.layer_name(layer);
     let layer = layer.map_or(String::new(), |name| format!(" {name}"));
     Section {
         title: format!("{}{layer}", entry.role.name()),
@@ -89,7 +89,7 @@ fn section(image: &Image, entry: &TextureEntry, layer: u32) -> Section {
 fn skybox(texture: &Texture, entry: &TextureEntry) -> Vec<Section> {
     let faces: Vec<(String, Image)> = (0..texture.layers)
         .map(|layer| {
-            let name = texture.shape.layer_name(layer).unwrap_or_default();
+            let name = entry.role.layer_name(layer).unwrap_or_default();
             (name, texture.image(0, layer))
         })
         .collect();

@@ -1,5 +1,5 @@
 //! One grey image a channel, as files `ROLE.CHANNEL.png` and `ROLE.CHANNEL.exr`; in arrays and cubes
-//! `ROLE.LAYER.CHANNEL.png`, where LAYER is a number from 1 or the name of a face.
+//! `ROLE.LAYER.CHANNEL.png`, where LAYER is a number from 1, or the name of a face or of a kind of cloud.
 
 use std::path::Path;
 
@@ -46,7 +46,7 @@ pub fn add(folder: &Folder, role: Role, layer: u32, image: &Image, kind: Kind) -
 }
 
 fn file_name(role: Role, layer: u32, channel: &str, kind: Kind) -> String {
-    let layer = role.spec().shape.layer_name(layer);
+    let layer = role.layer_name(layer);
     let layer = layer.map_or(String::new(), |name| format!("{name}."));
     format!("{}.{layer}{channel}.{}", role.name(), kind.extension())
 }

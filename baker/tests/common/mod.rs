@@ -1,6 +1,7 @@
 //! What several tests need.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it fails")]
+#![allow(dead_code, reason = "not every test needs all")]
 
 use std::ops::ControlFlow;
 

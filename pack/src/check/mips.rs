@@ -5,7 +5,7 @@ use super::rule::MIP_MEAN;
 use super::subject;
 use crate::{Format, Image, Role, Texture};
 
-/// Checks every channel that is averaged over area. Star levels and the sunset gradient have rules of
+/// Checks every channel that is averaged over area. Star levels, the sunset gradient and normals have rules of
 /// their own.
 pub(super) fn check(report: &mut Report, role: Role, texture: &Texture) {
     if texture.levels.len() == 1 || role == Role::Stars {
@@ -16,7 +16,7 @@ pub(super) fn check(report: &mut Report, role: Role, texture: &Texture) {
         .map(Iterator::collect)
         .collect();
     for (index, channel) in role.spec().channels.iter().enumerate() {
-        if channel.name == "gradient" {
+        if ["gradient", "normal_x", "normal_y"].contains(&channel.name) {
             continue;
         }
         let worst = layers

@@ -10,6 +10,7 @@ mod fbm;
 mod files;
 mod flares;
 mod galaxy;
+mod layers;
 mod mips;
 mod octaves;
 mod report;
@@ -58,8 +59,18 @@ fn check_texture(report: &mut Report, role: Role, texture: &Texture) {
         Role::Octaves => octaves::check(report, texture),
         Role::Fbm => fbm::check(report, texture),
         Role::Flares => flares::check(report, texture),
+        Role::Layers => layers::check(report, texture),
         Role::Skybox => skybox::check(report, texture),
     }
+}
+
+/// The largest distance of a byte value's count from an equal share of all.
+fn unevenness(bytes: impl Iterator<Item = u8>) -> usize {
+    let mut counts = [0_usize; 256];
+    bytes.for_each(|byte| counts[usize::from(byte)] += 1);
+    let share = counts.iter().sum::<usize>() / counts.len();
+    let distances = counts.iter().map(|count| count.abs_diff(share));
+    distances.max().unwrap_or(0)
 }
 
 /// `role.channel`, as reports name a channel.

@@ -7,7 +7,7 @@ use super::chance::{FALSE_ALARMS, chi_squared_deviate};
 use super::report::{Bound, Report};
 use super::rule::{NOISE_FLAT, NOISE_WHITE};
 use super::spectrum::Spectrum;
-use super::subject;
+use super::{subject, unevenness};
 use crate::{Role, Texture};
 
 /// Bands of wave numbers, each an octave wide, to the shortest wave of 32 texels.
@@ -24,18 +24,13 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
     }
 }
 
-/// How far the count of a byte value is from an equal share of the texels.
 fn check_flat(report: &mut Report, texture: &Texture, channel: usize) {
     let channels = texture.format.channels();
-    let mut counts = [0_usize; 256];
     let texels = texture.levels[0].iter().skip(channel).step_by(channels);
-    texels.for_each(|&byte| counts[usize::from(byte)] += 1);
-    let share = texture.levels[0].len() / channels / counts.len();
-    let worst = counts.iter().map(|count| count.abs_diff(share)).max();
     report.measure(
         NOISE_FLAT,
         &subject(Role::Octaves, channel),
-        worst.unwrap_or(0) as f64,
+        unevenness(texels.copied()) as f64,
         Bound::AtMost(0.0),
     );
 }

@@ -83,6 +83,11 @@ rules! {
     OCTAVE_BAND = error("octave-band", "Every layer of the fbm noise has its energy in the band of its octave.");
     DISPLACED = error("displaced", "The displaced channels of the fbm noise are the noise, displaced.");
     FLARE_CELLS = error("flare-cells", "Every cell of the flares has light, and none along its border.");
+    LEVEL_MEAN = error("level-mean", "Density and rank of every level of the layers are the means of the texels above.");
+    NORMAL_UNIT = error("normal-unit", "Every normal of the layers is a unit vector that points upwards, on every level.");
+    NORMAL_SLOPE = error("normal-slope", "The normals of the layers are those of a surface as high as their density.");
+    RANK_FLAT = error("rank-flat", "Every rank is equally often in a layer.");
+    RANK_ORDER = error("rank-order", "The rank never falls as the density rises.");
     SKYBOX_RANGE = error("skybox-range", "Radiance is finite and not negative, and the cover between 0 and 1.");
     SKYBOX_SEAM = warning("skybox-seam", "Across the 12 edges of the cube the picture changes no more than beside them.");
 }

@@ -1,5 +1,6 @@
 //! Plants one fault at a time and sees that its rule, and no other error, fires.
 
+mod layers;
 mod methods;
 mod skybox;
 mod stars;
@@ -65,6 +66,7 @@ fn every_rule_has_a_test_here_and_a_place_in_the_documentation() {
     // Without white space, so that the formatter may break lines where it likes.
     let tests = concat!(
         include_str!("tests.rs"),
+        include_str!("tests/layers.rs"),
         include_str!("tests/methods.rs"),
         include_str!("tests/skybox.rs"),
         include_str!("tests/stars.rs"),

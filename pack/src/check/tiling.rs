@@ -6,14 +6,19 @@ use super::subject;
 use crate::{Image, Role, Texture};
 
 /// Compares the difference across the edges with the differences inside, on both axes, every level and layer.
-///
-/// The figure is the worst ratio of the root mean square difference across the edge to the largest one
-/// between two neighbouring rows or columns inside, over its bound at that level. In a channel that tiles
-/// the edge is a place like any other, so the ratio seldom reaches 1; small levels have few rows to take
-/// the largest from, hence the slack of 8 / rows.
 pub(super) fn check_seam(report: &mut Report, role: Role, texture: &Texture, channel: usize) {
+    let worst = seam(texture, channel, texture.levels.len());
+    report.measure(SEAM, &subject(role, channel), worst, Bound::AtMost(1.0));
+}
+
+/// The worst ratio, on the first `levels`, of the root mean square difference across the edge to the largest one
+/// between two neighbouring rows or columns inside, over its bound at that level.
+///
+/// In a channel that tiles the edge is a place like any other, so the ratio seldom reaches 1; small levels have few
+/// rows to take the largest from, hence the slack of 8 / rows.
+pub(super) fn seam(texture: &Texture, channel: usize, levels: usize) -> f64 {
     let mut worst = 0.0_f64;
-    let images = (0..texture.levels.len())
+    let images = (0..levels)
         .flat_map(|level| (0..texture.layers).map(move |layer| texture.image(level, layer)));
     for image in images {
         for axis in [Axis::X, Axis::Y] {
@@ -25,7 +30,7 @@ pub(super) fn check_seam(report: &mut Report, role: Role, texture: &Texture, cha
             worst = worst.max(across / ((largest + HALF_STEP) * slack));
         }
     }
-    report.measure(SEAM, &subject(role, channel), worst, Bound::AtMost(1.0));
+    worst
 }
 
 /// Below half a step of a byte a difference is rounding.
@@ -34,7 +39,7 @@ const HALF_STEP: f64 = 0.5 / 255.0;
 /// Compares second differences of neighbouring texels with first ones.
 ///
 /// A wave of `n` texels has the ratio `2 sin(pi / n)`, white noise has sqrt(3). The figure is the ratio of
-/// the root mean squares over both axes, at level 0.
+/// the root mean squares over both axes, at level 0 of the worst layer.
 pub(super) fn check_smooth(
     report: &mut Report,
     role: Role,
@@ -42,7 +47,17 @@ pub(super) fn check_smooth(
     channel: usize,
     texels_a_wave: f64,
 ) {
-    let image = texture.image(0, 0);
+    let ratios = (0..texture.layers).map(|layer| roughness(&texture.image(0, layer), channel));
+    let most = 2.0 * libm::sin(std::f64::consts::PI / texels_a_wave);
+    report.measure(
+        SMOOTH,
+        &subject(role, channel),
+        ratios.fold(0.0, f64::max),
+        Bound::AtMost(most),
+    );
+}
+
+fn roughness(image: &Image, channel: usize) -> f64 {
     let (mut first, mut second) = (0.0, 0.0);
     let (width, height) = (image.width, image.height);
     let at = |x: u32, y: u32| f64::from(image.texel(x % width, y % height)[channel]);
@@ -55,13 +70,11 @@ pub(super) fn check_smooth(
             }
         }
     }
-    let ratio = if first > 0.0 {
+    if first > 0.0 {
         libm::sqrt(second / first)
     } else {
         0.0
-    };
-    let most = 2.0 * libm::sin(std::f64::consts::PI / texels_a_wave);
-    report.measure(SMOOTH, &subject(role, channel), ratio, Bound::AtMost(most));
+    }
 }
 
 #[derive(Clone, Copy)]

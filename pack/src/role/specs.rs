@@ -216,6 +216,38 @@ pub(super) const FLARES: RoleSpec = RoleSpec {
     )],
 };
 
+pub(super) const LAYERS: RoleSpec = RoleSpec {
+    formats: &[Format::Rgba8Unorm],
+    shape: Shape::Array,
+    size: [256, 256],
+    sides: [64, 1024],
+    layers: [3, 3],
+    mips: true,
+    wrap: Wrap::Repeat,
+    filter: Filter::Linear,
+    channels: &[
+        ChannelSpec {
+            name: "normal_x",
+            meaning: "unit normal of the cloud's upper surface, component along +u",
+            unit: "1",
+            range: [-1.0, 1.0],
+        },
+        ChannelSpec {
+            name: "normal_y",
+            meaning: "unit normal of the cloud's upper surface, component along +v",
+            unit: "1",
+            range: [-1.0, 1.0],
+        },
+        channel("density", "cloud amount", "1", 1.0),
+        channel(
+            "rank",
+            "share of the layer's texels that are thinner",
+            "1",
+            1.0,
+        ),
+    ],
+};
+
 pub(super) const SKYBOX: RoleSpec = RoleSpec {
     formats: &[Format::Rgba16Float],
     shape: Shape::Cube,

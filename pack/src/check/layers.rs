@@ -1,0 +1,148 @@
+//! Layers of clouds: density, its rank, and normals.
+
+mod normals;
+
+use super::report::{Bound, Report};
+use super::rule::{
+    CLOUD_SPREAD, LEVEL_MEAN, NORMAL_SLOPE, NORMAL_UNIT, RANK_FLAT, RANK_ORDER, SEAM,
+};
+use super::{subject, tiling, unevenness};
+use crate::texture::unorm8;
+use crate::{Image, LayerKind, Role, Texture};
+
+const DENSITY: usize = 2;
+const RANK: usize = 3;
+
+/// Smallest mean wavelength of density and rank, in texels, of which the smallest lumps have five: anything finer
+/// shows as single texels.
+const WAVE_TEXELS: f64 = 5.0;
+
+/// The largest ratio of differences across the edge to those inside, over the usual bound.
+///
+/// Clouds are long parts of the tile: along a line the mean is of few independent squares. If they are five and
+/// there are twelve independent lines, less than a cirrus has, then chance exceeds 2 five times in a hundred million
+/// (the integral of `f(x) F(x / k^2)^12`, where `f` and `F` are the law of chi squared over its five degrees
+/// of freedom and `k` is twice 1.28). A layer that does not tile has 3 and more.
+const MOST_SEAM: f64 = 2.0;
+
+/// The least root mean square slope: half of what the format asks, of which rounding takes less than a tenth.
+const LEAST_RELIEF: f64 = 0.05;
+
+pub(super) fn check(report: &mut Report, texture: &Texture) {
+    for channel in [DENSITY, RANK] {
+        // The other levels are shown to be means of this one, and normals to be periodic differences.
+        let seam = tiling::seam(texture, channel, 1);
+        report.measure(
+            SEAM,
+            &subject(Role::Layers, channel),
+            seam,
+            Bound::AtMost(MOST_SEAM),
+        );
+        tiling::check_smooth(report, Role::Layers, texture, channel, WAVE_TEXELS);
+    }
+    for (layer, kind) in (0..texture.layers).zip(LayerKind::ALL) {
+        let levels = 0..texture.levels.len();
+        let levels: Vec<Image> = levels.map(|level| texture.image(level, layer)).collect();
+        check_amounts(report, &levels, kind);
+        check_normals(report, &levels, kind);
+        check_ranks(report, &levels[0], kind);
+    }
+}
+
+/// What a report calls a layer.
+fn layer_name(kind: LayerKind) -> String {
+    format!("{} {}", Role::Layers.name(), kind.name())
+}
+
+fn check_amounts(report: &mut Report, levels: &[Image], kind: LayerKind) {
+    let name = |channel| format!("{} {}", subject(Role::Layers, channel), kind.name());
+    let spread = levels[0].mean_and_spread(DENSITY).1;
+    // As wide as the channels of the role `clouds`.
+    report.measure(
+        CLOUD_SPREAD,
+        &name(DENSITY),
+        f64::from(spread),
+        Bound::Within(0.04, 0.40),
+    );
+    for channel in [DENSITY, RANK] {
+        let steps = levels.windows(2);
+        let steps = steps.map(|pair| off_the_mean(&pair[0], &pair[1], channel));
+        // Both were rounded once: half a step each, and seven digits.
+        report.measure(
+            LEVEL_MEAN,
+            &name(channel),
+            steps.fold(0.0, f64::max),
+            Bound::AtMost(1.0001),
+        );
+    }
+}
+
+fn check_normals(report: &mut Report, levels: &[Image], kind: LayerKind) {
+    let name = layer_name(kind);
+    let length = normals::longest(&levels[0]);
+    report.measure(NORMAL_UNIT, &name, length, Bound::AtMost(1.0));
+    let steps = levels.windows(2);
+    let steps = steps.map(|pair| normals::off_the_mean(&pair[0], &pair[1]));
+    report.measure(
+        NORMAL_UNIT,
+        &format!("{name} levels"),
+        steps.fold(0.0, f64::max),
+        Bound::AtMost(1.0),
+    );
+    let disagreement = normals::disagreement(&levels[0], DENSITY);
+    report.measure(NORMAL_SLOPE, &name, disagreement, Bound::AtMost(1.0));
+    report.measure(
+        NORMAL_SLOPE,
+        &format!("{name} relief"),
+        normals::relief(&levels[0]),
+        Bound::AtLeast(LEAST_RELIEF),
+    );
+}
+
+fn check_ranks(report: &mut Report, image: &Image, kind: LayerKind) {
+    let name = layer_name(kind);
+    let pairs = image.texels.chunks_exact(image.channels);
+    let pairs = pairs.map(|texel| [texel[DENSITY], texel[RANK]].map(unorm8));
+    let uneven = unevenness(pairs.clone().map(|[_, rank]| rank));
+    report.measure(RANK_FLAT, &name, uneven as f64, Bound::AtMost(0.0));
+    let fall = f64::from(largest_fall(pairs));
+    report.measure(RANK_ORDER, &name, fall, Bound::AtMost(0.0));
+}
+
+/// The largest difference of a texel from the mean of those above it, in steps of a byte.
+fn off_the_mean(above: &Image, level: &Image, channel: usize) -> f64 {
+    let differences = texels(level).map(|(x, y)| {
+        let sum: f64 = under(above, x, y)
+            .iter()
+            .map(|texel| f64::from(texel[channel]))
+            .sum();
+        (f64::from(level.texel(x, y)[channel]) - sum / 4.0).abs() * 255.0
+    });
+    differences.fold(0.0, f64::max)
+}
+
+/// The four texels that a texel of the next level is made from.
+fn under(above: &Image, x: u32, y: u32) -> [&[f32]; 4] {
+    let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
+    corners.map(|(i, j)| above.texel(2 * x + i, 2 * y + j))
+}
+
+fn texels(image: &Image) -> impl Iterator<Item = (u32, u32)> + use<> {
+    let (width, height) = (image.width, image.height);
+    (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
+}
+
+/// By how many steps the rank of a texel is above that of a denser one at most.
+fn largest_fall(texels: impl Iterator<Item = [u8; 2]>) -> u8 {
+    let mut ranks: [Option<[u8; 2]>; 256] = [None; 256];
+    for [density, rank] in texels {
+        let range = ranks[usize::from(density)].get_or_insert([rank; 2]);
+        *range = [range[0].min(rank), range[1].max(rank)];
+    }
+    let (mut highest, mut fall) = (0_u8, 0);
+    for [least, most] in ranks.into_iter().flatten() {
+        fall = fall.max(highest.saturating_sub(least));
+        highest = highest.max(most);
+    }
+    fall
+}
