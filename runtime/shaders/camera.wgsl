@@ -32,6 +32,11 @@ fn vs_dome(@location(0) position: vec3f) -> Varyings {
     return Varyings(vec4f(x, y, FAR_DEPTH * w, w), position);
 }
 
+// The angle that a pixel covers in a direction, over that of one in the axis of the lens.
+fn pixel_narrowing(direction: vec3f) -> f32 {
+    return dot(direction, uniforms.camera.clip_w.xyz);
+}
+
 // Pixel coordinates of a direction in front of the camera: (0, 0) is the upper left corner.
 fn pixel_of(direction: vec3f) -> vec2f {
     let camera = uniforms.camera;

@@ -45,7 +45,7 @@ fn cloud_clearness(direction: vec3f) -> f32 {
 // Level of detail of a texture with one texel a height of the layer: half way between the footprint's
 // short side and its long one, which is stretched by 1 / cos. Pixels away from the axis of the lens cover
 // smaller angles, by the cosine of theirs to it.
-fn cloud_level(hit: DomeHit, direction: vec3f) -> f32 {
-    let side = hit.distance * dot(direction, uniforms.camera.clip_w.xyz);
+fn cloud_level(hit: DomeHit, narrowing: f32) -> f32 {
+    let side = hit.distance * narrowing;
     return 0.5 * log2(max(side * side * ((CLOUD_SPHERE_RADIUS + 1.0) * hit.slant), 1e-12));
 }

@@ -15,10 +15,10 @@ struct FbmUniforms {
 }
 
 // Radiance and opacity of the clouds along a unit direction above the horizon.
-fn fbm_layer(direction: vec3f) -> vec4f {
+fn fbm_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let fbm = uniforms.fbm;
     let hit = dome_intersect(direction);
-    let level = cloud_level(hit, direction) + fbm.place.z;
+    let level = cloud_level(hit, narrowing) + fbm.place.z;
     let uv = fbm.axes.xy * hit.plane.x + fbm.axes.zw * hit.plane.y + fbm.place.xy;
     let cloud = textureSampleLevel(map_texture, repeat_sampler, uv, level);
     let finer_uv = uv * FBM_FINER + FBM_FINER_START;

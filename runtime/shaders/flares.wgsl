@@ -24,8 +24,9 @@ fn flare_clearness() -> f32 {
 }
 
 fn flare_cover(towards: vec3f) -> f32 {
-    let direction = normalize(towards);
-    return cloud_layer(vec3f(direction.x, max(direction.y, 0.0), direction.z)).a;
+    let unit = normalize(towards);
+    let direction = vec3f(unit.x, max(unit.y, 0.0), unit.z);
+    return cloud_layer(direction, pixel_narrowing(direction)).a;
 }
 
 @vertex

@@ -30,10 +30,10 @@ fn octaves_alpha(thickness: f32, exponent: f32) -> f32 {
 }
 
 // Radiance and opacity of the clouds along a unit direction above the horizon.
-fn octaves_layer(direction: vec3f) -> vec4f {
+fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let octaves = uniforms.octaves;
     let hit = dome_intersect(direction);
-    let level = cloud_level(hit, direction);
+    let level = cloud_level(hit, narrowing);
     let thin_grey = 0.5 + 0.5 * octaves.map.z;
     // One grey for all domes: from that of thin cloud to that of the low dome where it is opaque.
     var grey = thin_grey;

@@ -19,10 +19,10 @@ fn packed_fold(grey: f32) -> f32 {
 }
 
 // Radiance and opacity of the clouds along a unit direction above the horizon.
-fn packed_layer(direction: vec3f) -> vec4f {
+fn packed_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let packed = uniforms.packed;
     let hit = dome_intersect(direction);
-    let level = cloud_level(hit, direction);
+    let level = cloud_level(hit, narrowing);
 
     let turned = vec2f(
         hit.plane.x * packed.noise.x - hit.plane.y * packed.noise.y,

@@ -1,21 +1,33 @@
-// The whole sky of one pixel: clear sky, then what shows through it at night, the sun, and clouds over all.
-@fragment
-fn fs_sky(in: Varyings) -> @location(0) vec4f {
-    let direction = in.ray * inverseSqrt(dot(in.ray, in.ray));
+// What is behind the clouds: clear sky, what shows through it at night, the sun, a picture in place of them.
+fn behind_clouds(direction: vec3f, pixel: vec2f) -> vec3f {
     var radiance = sky_radiance(direction);
     if NIGHT && direction.y > 0.0 {
         let dome = direction_to_dome(direction);
         let galaxy = galaxy_brightness(dome);
-        let night = galaxy * uniforms.galaxy.light.rgb + star_radiance(dome, in.position.xy, galaxy);
+        let night = galaxy * uniforms.galaxy.light.rgb + star_radiance(dome, pixel, galaxy);
         radiance += night * smoothstep(0.0, EXTINCTION, direction.y);
     }
     radiance += sun_radiance(direction);
     if SKYBOX {
         radiance = skybox_mix(radiance, direction);
     }
+    return radiance;
+}
+
+// The whole sky of one pixel: clouds, and where they let it through, what is behind them.
+@fragment
+fn fs_sky(in: Varyings) -> @location(0) vec4f {
+    let direction = in.ray * inverseSqrt(dot(in.ray, in.ray));
+    var clouds = vec4f(0.0);
     if direction.y > 0.0 {
-        let clouds = cloud_layer(direction);
-        radiance = mix(radiance, clouds.rgb, clouds.a);
+        clouds = cloud_layer(direction, pixel_narrowing(direction));
+    }
+    var radiance = clouds.rgb;
+    if !ASK_OPAQUE || clouds.a < 1.0 {
+        radiance = mix(behind_clouds(direction, in.position.xy), clouds.rgb, clouds.a);
+    }
+    if uniforms.lightning.light.g > 0.0 {
+        radiance += lightning_light(direction, clouds);
     }
     return finish(radiance, in.position.xy);
 }

@@ -4,6 +4,7 @@ struct SunUniforms {
     up: vec4f,    // xyz: the same upwards; w: 1 if there is a sun to draw
     disc: vec4f,  // rgb: radiance of the disc; w: level of the texture for it
     glow: vec4f,  // rgb: radiance of the glow; w: level of the texture for it
+    towards: vec4f, // xyz: unit direction towards what is drawn, the sun or the moon
 }
 
 fn sun_radiance(direction: vec3f) -> vec3f {
@@ -12,7 +13,7 @@ fn sun_radiance(direction: vec3f) -> vec3f {
         return vec3f(0.0);
     }
     let place = vec2f(dot(direction, sun.right.xyz), -dot(direction, sun.up.xyz));
-    let ahead = dot(direction, uniforms.sky.sun.xyz) > 0.0;
+    let ahead = dot(direction, sun.towards.xyz) > 0.0;
     if !ahead || max(abs(place.x), abs(place.y)) >= 1.0 {
         return vec3f(0.0);
     }

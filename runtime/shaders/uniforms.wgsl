@@ -12,6 +12,11 @@ struct Uniforms {
     packed: PackedUniforms,
     octaves: OctaveUniforms,
     fbm: FbmUniforms,
+    lit: LitUniforms,
+    shadow: ShadowUniforms,
+    lightning: LightningUniforms,
+    rays: RayUniforms,
+    rain: RainUniforms,
     flares: FlareUniforms,
     tonemap: TonemapUniforms,
 }
@@ -34,3 +39,4 @@ override UPPER_LAYER: bool = true;
 // What a method adds: to the dome its map; to an off-screen pass the texture that it reads.
 @group(1) @binding(0) var map_texture: texture_2d<f32>;
 @group(1) @binding(1) var layers_texture: texture_2d_array<f32>;
+@group(1) @binding(2) var lit_map_texture: texture_2d_array<f32>;

@@ -26,7 +26,7 @@ const HAZE: [f32; 2] = [0.20, 0.08];
 /// Cover from which the sky closes.
 const CLOSING: f32 = 0.8;
 /// Share of sunlight that a shut sky keeps from its own underside.
-const SHADE: f32 = 0.4;
+pub(crate) const SHADE: f32 = 0.4;
 
 /// Wind at speed 1 in heights of the layer a second: 2.3 degrees a second overhead.
 pub(crate) const MAX_WIND: f64 = 0.04;
@@ -100,6 +100,22 @@ pub(crate) fn radiance(clouds: &CloudUniforms, grey: f32) -> Vec3 {
 /// How far the sky is shut at a cover, 0..1: an overcast has no holes.
 pub fn closing(cover: f32) -> f32 {
     smoothstep(CLOSING, 1.0, cover)
+}
+
+/// `cloud_soften` of the shader.
+pub(crate) fn softened(alpha: f32, edge: f32) -> f32 {
+    alpha * alpha * (1.0 + edge) / (alpha + edge)
+}
+
+/// Its inverse: the positive root of `(1 + e) a^2 - s a - s e`.
+pub(crate) fn before_softening(softened: f32, edge: f32) -> f32 {
+    let wide = 2.0 * (1.0 + edge);
+    (softened + (softened * softened + 2.0 * wide * softened * edge).sqrt()) / wide
+}
+
+/// Inverse of `smoothstep(0, 1, t)`: the root of the cubic, by angles.
+pub(crate) fn before_smoothstep(value: f32) -> f32 {
+    0.5 - ((1.0 - 2.0 * value).asin() / 3.0).sin()
 }
 
 /// A texture coordinate in 0..1: reduced in 64 bits, since seconds have no end.

@@ -79,6 +79,11 @@ pub const MAX_STEP_DEG: f32 = 45.0;
 /// Ten degrees are the papers' choice. The step is clamped to [`MIN_STEP_DEG`]..=[`MAX_STEP_DEG`] and
 /// shortened until it divides 90 degrees; what is not a number becomes ten.
 pub fn mesh(step_deg: f32) -> Mesh {
+    mesh_of(step_deg, |direction| intersect(direction).position)
+}
+
+/// The same of a dome that rays meet at `position`.
+pub(crate) fn mesh_of(step_deg: f32, position: impl Fn(Vec3) -> Vec3) -> Mesh {
     let step = if step_deg.is_nan() {
         10.0
     } else {
@@ -89,12 +94,12 @@ pub fn mesh(step_deg: f32) -> Mesh {
     let vertex = |ring: u16, column: u16| {
         let elevation = f32::from(ring) / f32::from(rings) * std::f32::consts::FRAC_PI_2;
         let azimuth = f32::from(column % columns) / f32::from(columns) * std::f32::consts::TAU;
-        let position = Vec3::from(welkin_pack::mapping::direction_from_angles(
+        let direction = Vec3::from(welkin_pack::mapping::direction_from_angles(
             azimuth, elevation,
         ));
-        let hit = intersect(position).position;
+        let hit = position(direction);
         Vertex {
-            position: position.to_array(),
+            position: direction.to_array(),
             uv: [hit.x, hit.z],
         }
     };

@@ -25,8 +25,8 @@ use crate::fbm_pack;
 use crate::octaves_map::{NORMAL_BEND, NORMAL_SLOPE};
 use crate::uniforms::{CloudUniforms, FbmUniforms, vec4};
 
-/// How much finer the second read of the map is.
-pub const FINER: f32 = 4.73;
+/// How much finer the second read of the map is. A whole number: offsets are reduced by whole tiles.
+pub const FINER: f32 = 5.0;
 /// Where the second read starts.
 pub const FINER_START: [f32; 2] = [0.13, 0.57];
 

@@ -7,8 +7,8 @@ use crate::fbm_map::Octaves;
 use crate::light::Light;
 use crate::uniforms::{CameraUniforms, Uniforms, vec4};
 use crate::{
-    Camera, Method, SkyError, SkyParams, clouds, fbm, flares, galaxy, octaves, octaves_map, packed,
-    perez, sky, skybox, stars, sun, tonemap,
+    Camera, Method, SkyError, SkyParams, clouds, fbm, flares, galaxy, lightning, lit, octaves,
+    octaves_map, packed, perez, rain, rays, shadow, sky, skybox, stars, sun, tonemap,
 };
 
 /// What the CPU keeps of a pack between frames.
@@ -98,10 +98,17 @@ impl Facts {
         let packed = packed::uniforms(&params, &view);
         let octaves = octaves::uniforms(&params, &view, [east, south]);
         let fbm = fbm::uniforms(&params, &view, &self.fbm, light.sun_direction);
+        let lit = lit::uniforms(&params, &view, &light, &clouds);
+        let flash = lightning::uniforms(&params, &view, &clouds, &lit);
+        let shown = match params.method {
+            Method::Lit => lit::luminary(&light, params.lit.moon),
+            _ => light,
+        };
         let overcast = match params.method {
             Method::Packed => packed::overcast(&packed, &clouds, self.cloud_means),
             Method::Octaves => octaves::overcast(&octaves, &clouds),
             Method::Fbm => fbm::overcast(&fbm, &clouds),
+            Method::Lit => lit::overcast(&lit),
         };
         let overcast = vec4(overcast, clouds::closing(params.cover));
         let camera = camera_uniforms(camera);
@@ -111,7 +118,7 @@ impl Facts {
             camera,
             sky: sky::uniforms(&light, &self.sky, params.time, night, overcast),
             perez: perez::uniforms(&params.perez, params.sky, &light),
-            sun: sun::uniforms(&light, &rays, self.sun.0, self.sun.1, pixel, params.sun),
+            sun: sun::uniforms(&shown, &rays, self.sun.0, self.sun.1, pixel, params.sun),
             stars: stars::uniforms(self.stars.0, self.stars.1, pixel_rad, night, seconds),
             galaxy: galaxy::uniforms(night, self.clouds_texels, pixel),
             skybox: skybox::uniforms(params.skybox, face, levels, pixel),
@@ -119,6 +126,11 @@ impl Facts {
             packed,
             octaves,
             fbm,
+            lightning: flash,
+            rays: rays::uniforms(&params, &light, &clouds, &rays, pixel),
+            rain: rain::uniforms(&params, &view, &clouds, &lit, &flash),
+            shadow: shadow::uniforms(&params, &view, &lit),
+            lit,
             flares: flares::uniforms(&params, &light, &camera, self.flares),
             tonemap: tonemap::uniforms(&params, step),
         }

@@ -29,20 +29,24 @@ pub(crate) struct Layouts {
     pub texture: wgpu::BindGroupLayout,
     /// One array of textures, at binding 1.
     pub layers: wgpu::BindGroupLayout,
+    /// Two arrays: the pack's layers at binding 1, their map at binding 2.
+    pub lit: wgpu::BindGroupLayout,
 }
 
 impl Layouts {
     pub fn new(device: &wgpu::Device) -> Layouts {
-        let one = |binding: u32, dimension| {
+        let own = |bindings: &[u32], dimension| {
+            let entries = bindings.iter().map(|&b| entry(b, texture(true, dimension)));
             device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some("sky, a method's own"),
-                entries: &[entry(binding, texture(true, dimension))],
+                entries: &entries.collect::<Vec<_>>(),
             })
         };
         Layouts {
             shared: shared_layout(device),
-            texture: one(0, wgpu::TextureViewDimension::D2),
-            layers: one(1, wgpu::TextureViewDimension::D2Array),
+            texture: own(&[0], wgpu::TextureViewDimension::D2),
+            layers: own(&[1], wgpu::TextureViewDimension::D2Array),
+            lit: own(&[1, 2], wgpu::TextureViewDimension::D2Array),
         }
     }
 
@@ -52,28 +56,53 @@ impl Layouts {
         device: &wgpu::Device,
         view: &wgpu::TextureView,
     ) -> wgpu::BindGroup {
-        group(device, &self.texture, 0, view)
+        group(device, &self.texture, &[(0, view)])
     }
 
     /// Group 1 with an array of textures, even if it has one layer only.
     pub fn layers_group(&self, device: &wgpu::Device, texture: &wgpu::Texture) -> wgpu::BindGroup {
-        let view = texture.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2Array),
-            ..Default::default()
-        });
-        group(device, &self.layers, 1, &view)
+        group(device, &self.layers, &[(1, &array(texture))])
     }
 
-    /// A pipeline that fills a whole target; `own` is the layout of its group 1.
-    pub fn off_screen(
+    /// Group 1 with one level of an array of textures.
+    pub fn array_group(&self, device: &wgpu::Device, view: &wgpu::TextureView) -> wgpu::BindGroup {
+        group(device, &self.layers, &[(1, view)])
+    }
+
+    /// Group 1 of the lit method's dome.
+    pub fn lit_group(
+        &self,
+        device: &wgpu::Device,
+        layers: &wgpu::Texture,
+        map: &wgpu::Texture,
+    ) -> wgpu::BindGroup {
+        group(device, &self.lit, &[(1, &array(layers)), (2, &array(map))])
+    }
+
+    /// A pipeline that fills a whole target; `own` is the layout of its group 1, if it has one.
+    pub fn off_screen<'a>(
         &self,
         device: &wgpu::Device,
         module: &wgpu::ShaderModule,
         entry_point: &str,
-        own: &wgpu::BindGroupLayout,
+        own: impl Into<Option<&'a wgpu::BindGroupLayout>>,
         format: wgpu::TextureFormat,
     ) -> wgpu::RenderPipeline {
-        let layout = self.pipeline_layout(device, Some(own));
+        self.off_screen_with(device, module, entry_point, own, &[format], &[])
+    }
+
+    /// The same of several targets, with overridable constants.
+    pub fn off_screen_with<'a>(
+        &self,
+        device: &wgpu::Device,
+        module: &wgpu::ShaderModule,
+        entry_point: &str,
+        own: impl Into<Option<&'a wgpu::BindGroupLayout>>,
+        formats: &[wgpu::TextureFormat],
+        constants: &[(&str, f64)],
+    ) -> wgpu::RenderPipeline {
+        let layout = self.pipeline_layout(device, own.into());
+        let targets: Vec<_> = formats.iter().map(|&f| Some(f.into())).collect();
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(entry_point),
             layout: Some(&layout),
@@ -84,8 +113,11 @@ impl Layouts {
             fragment: Some(wgpu::FragmentState {
                 module,
                 entry_point: Some(entry_point),
-                compilation_options: Default::default(),
-                targets: &[Some(format.into())],
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants,
+                    ..Default::default()
+                },
+                targets: &targets,
             }),
             multiview_mask: None,
             cache: None,
@@ -111,16 +143,24 @@ impl Layouts {
 fn group(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
-    binding: u32,
-    view: &wgpu::TextureView,
+    views: &[(u32, &wgpu::TextureView)],
 ) -> wgpu::BindGroup {
+    let entries = views.iter().map(|&(binding, view)| wgpu::BindGroupEntry {
+        binding,
+        resource: wgpu::BindingResource::TextureView(view),
+    });
     device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("sky, a method's own"),
         layout,
-        entries: &[wgpu::BindGroupEntry {
-            binding,
-            resource: wgpu::BindingResource::TextureView(view),
-        }],
+        entries: &entries.collect::<Vec<_>>(),
+    })
+}
+
+/// A view of all layers, even if there is one only.
+fn array(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
     })
 }
 

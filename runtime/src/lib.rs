@@ -8,7 +8,8 @@
 //! # Practice
 //! One triangle over the screen, one fragment shader, five to ten texture reads a pixel, inside
 //! `Limits::downlevel_webgl2_defaults()`. All work a frame is done in [`Sky::prepare`], which writes one
-//! uniform buffer and, for [`Method::Octaves`] and [`Method::Fbm`], draws their small cloud map off screen. A frame is a pure function of pack, parameters, camera and seconds.
+//! uniform buffer and draws off screen what needs that: the small cloud maps of all methods but [`Method::Packed`], and cloud shadows and
+//! rays while they are on. A frame is a pure function of pack, parameters, camera and seconds.
 //!
 //! ```no_run
 //! # fn f(device: &wgpu::Device, queue: &wgpu::Queue, mut encoder: wgpu::CommandEncoder, descriptor: &wgpu::RenderPassDescriptor<'_>) -> Result<(), Box<dyn std::error::Error>> {
@@ -37,6 +38,9 @@ pub mod galaxy;
 mod histogram;
 mod layouts;
 pub mod light;
+pub mod lightning;
+pub mod lit;
+pub mod lit_map;
 pub mod map;
 pub mod octaves;
 pub mod octaves_map;
@@ -45,8 +49,12 @@ pub mod packed;
 pub mod params;
 pub mod perez;
 mod pipeline;
+mod program;
+pub mod rain;
+pub mod rays;
 pub mod renderer;
 pub mod shader;
+pub mod shadow;
 pub mod sky;
 pub mod skybox;
 pub mod stars;
@@ -58,6 +66,10 @@ mod upload;
 pub use camera::Camera;
 pub use error::SkyError;
 pub use oktas::Oktas;
-pub use params::{FbmParams, Method, OctaveParams, ParamError, SkyModel, SkyParams};
+pub use params::{
+    FbmParams, Lightning, LitLayer, LitParams, Method, OctaveParams, ParamError, SkyModel,
+    SkyParams, WeatherParams,
+};
 pub use perez::{PerezParams, PerezShape};
 pub use renderer::{DepthConfig, Sky, SkyConfig};
+pub use shadow::Shadow;

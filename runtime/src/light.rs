@@ -109,9 +109,12 @@ fn sky_column(sky: &Image, time: f32) -> (Vec3, f32) {
     (sum / weights.max(1.0), night.clamp(0.0, 1.0))
 }
 
-/// Luminance of linear BT.709. ITU-R BT.709-6, 2015, item 3.2.
+/// What red, green and blue of linear BT.709 add to luminance. ITU-R BT.709-6, 2015, item 3.2.
+pub const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+
+/// Luminance of linear BT.709.
 pub fn luminance(colour: Vec3) -> f32 {
-    colour.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+    colour.dot(LUMINANCE)
 }
 
 /// WGSL's smoothstep.

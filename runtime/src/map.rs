@@ -117,24 +117,37 @@ pub(crate) fn target(
 }
 
 /// One pass of one triangle over a whole target.
-pub(crate) fn draw(
+pub(crate) fn draw<const N: usize>(
     encoder: &mut wgpu::CommandEncoder,
     target: &wgpu::TextureView,
     pipeline: &wgpu::RenderPipeline,
-    groups: [&wgpu::BindGroup; 2],
+    groups: [&wgpu::BindGroup; N],
 ) {
-    let attachment = wgpu::RenderPassColorAttachment {
-        view: target,
-        depth_slice: None,
-        resolve_target: None,
-        ops: wgpu::Operations {
-            load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
-            store: wgpu::StoreOp::Store,
-        },
+    draw_into(encoder, std::slice::from_ref(target), pipeline, groups);
+}
+
+/// The same over several targets at once.
+pub(crate) fn draw_into<const N: usize>(
+    encoder: &mut wgpu::CommandEncoder,
+    targets: &[wgpu::TextureView],
+    pipeline: &wgpu::RenderPipeline,
+    groups: [&wgpu::BindGroup; N],
+) {
+    let attachment = |view| {
+        Some(wgpu::RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                store: wgpu::StoreOp::Store,
+            },
+        })
     };
+    let attachments: Vec<_> = targets.iter().map(attachment).collect();
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("sky, off screen"),
-        color_attachments: &[Some(attachment)],
+        color_attachments: &attachments,
         ..Default::default()
     });
     pass.set_pipeline(pipeline);

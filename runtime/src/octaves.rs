@@ -30,8 +30,8 @@ use crate::clouds::{CloudView, LOW_HEIGHT_M, MAX_WIND, closing, offset, radiance
 use crate::octaves_map;
 use crate::uniforms::{CloudUniforms, OctaveDome, OctaveUniforms};
 
-/// How much finer the second read of the map is.
-pub const FINER: f32 = 5.17;
+/// How much finer the second read of the map is. A whole number: offsets are reduced by whole tiles.
+pub const FINER: f32 = 5.0;
 /// How much the second read changes the grey.
 pub const ROUGH_GREY: f32 = 0.2;
 /// Where the second read starts.

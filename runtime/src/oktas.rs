@@ -11,6 +11,8 @@
 //! - octaves: the map holds shares of its own distribution, evenly distributed by construction; three domes and the finer
 //!   read are independent ([`crate::octaves`]).
 //! - fbm: octaves drift apart, so the distribution of their sum is the convolution of theirs ([`crate::fbm`]).
+//! - lit: the blend of ranks is evenly distributed by construction, layers are independent, and cover is the covered share but for
+//!   thin cloud before thin cloud ([`crate::lit`]).
 //!
 //! Each opacity is inverted in closed form for one of those numbers and averaged over the others. The cover is found by
 //! bisection, since it enters in several places.
@@ -24,10 +26,15 @@
 
 use welkin_pack::{Pack, Role};
 
+use crate::clouds::{before_smoothstep, before_softening, softened};
 use crate::frame::{self, Facts};
 use crate::histogram::Histogram;
 use crate::light::smoothstep;
-use crate::uniforms::{FbmUniforms, OctaveDome, OctaveUniforms, PackedUniforms, Uniforms};
+use crate::params::LAYERS_AN_ITERATION;
+use crate::uniforms::{
+    FbmUniforms, LitLayerUniforms, LitUniforms, OctaveDome, OctaveUniforms, PackedUniforms,
+    Uniforms,
+};
 use crate::{Camera, Method, SkyError, SkyParams, fbm, fbm_map, octaves, packed};
 
 /// The opacity above which a direction counts as covered.
@@ -125,6 +132,7 @@ impl Oktas {
             Method::Packed => self.packed_share(&uniforms.packed, opacity),
             Method::Octaves => octaves_share(&uniforms.octaves, opacity),
             Method::Fbm => self.fbm_share(&uniforms.fbm, opacity),
+            Method::Lit => lit_share(&uniforms.lit, opacity),
         };
         let [hazy, clearness] = haze(&uniforms);
         OKTAS * ((1.0 - hazy) * share(OPAQUE) + hazy * share(OPAQUE / clearness))
@@ -219,6 +227,44 @@ fn low_dome(octaves: &OctaveUniforms, opacity: f32) -> f32 {
     nodes.map(above).sum::<f32>() / NODES as f32
 }
 
+/// The same by the lit method: layers are independent but for the grain of their iteration, of which every rank is equally likely.
+fn lit_share(lit: &LitUniforms, opacity: f32) -> f32 {
+    const RANKS: usize = 8;
+    let count = lit.dome[2] as usize;
+    let open = Histogram::of([1.0].into_iter());
+    let clear_with = |rank: usize| {
+        let layers = lit.layers[..count].chunks(LAYERS_AN_ITERATION).enumerate();
+        layers.fold(open.clone(), |all, (iteration, layers)| {
+            // Another iteration's grain is another one: any other order of the ranks.
+            let rank = (rank * (1 + 2 * iteration)) % RANKS;
+            let finer = (rank as f32 + 0.5) / RANKS as f32 - 0.5;
+            let grain = if layers[0].facing[2] > 0.0 {
+                finer
+            } else {
+                0.0
+            };
+            layers.iter().fold(all, |all, layer| {
+                Histogram::of_pairs(&all, &lit_clearness(layer, grain), |all, layer| all * layer)
+            })
+        })
+    };
+    let shares = (0..RANKS).map(|rank| 1.0 - clear_with(rank).above(1.0 - opacity));
+    shares.sum::<f32>() / RANKS as f32
+}
+
+/// What a layer leaves of the light behind it: every amount is equally likely.
+fn lit_clearness(layer: &LitLayerUniforms, grain: f32) -> Histogram {
+    const AMOUNTS: usize = 512;
+    let [cut, steepness, most, _] = layer.shape;
+    let clear = (0..AMOUNTS).map(|i| {
+        let thickness = ((i as f32 + 0.5) / AMOUNTS as f32 - cut).max(0.0);
+        let alpha = smoothstep(0.0, 1.0, steepness * thickness);
+        let rough = alpha + layer.facing[2] * grain * alpha * (1.0 - alpha);
+        1.0 - most * rough.clamp(0.0, 1.0)
+    });
+    Histogram::of(clear)
+}
+
 /// Shares of a dome and what each leaves of the light behind it, by the thickness above its cut.
 fn clearness(dome: &OctaveDome, of_thickness: impl Fn(f32) -> f32) -> Vec<[f32; 2]> {
     let open = dome.place[3].clamp(0.0, 1.0);
@@ -238,26 +284,10 @@ fn behind(opacity: f32, clear: f32) -> f32 {
     1.0 - (1.0 - opacity) / clear
 }
 
-/// `cloud_soften` of the shader.
-fn softened(alpha: f32, edge: f32) -> f32 {
-    alpha * alpha * (1.0 + edge) / (alpha + edge)
-}
-
-/// Its inverse: the positive root of `(1 + e) a^2 - s a - s e`.
-fn before_softening(softened: f32, edge: f32) -> f32 {
-    let wide = 2.0 * (1.0 + edge);
-    (softened + (softened * softened + 2.0 * wide * softened * edge).sqrt()) / wide
-}
-
 /// Inverse of `c + k c (1 - c)` in 0..1: the finer reads' roughening. One root, since 0 and 1 stay where they are.
 fn before_roughening(rough: f32, k: f32) -> f32 {
     let b = 1.0 + k;
     2.0 * rough / (b + (b * b - 4.0 * k * rough).max(0.0).sqrt()).max(1e-9)
-}
-
-/// Inverse of `smoothstep(0, 1, t)`: the root of the cubic, by angles.
-fn before_smoothstep(value: f32) -> f32 {
-    0.5 - ((1.0 - 2.0 * value).asin() / 3.0).sin()
 }
 
 #[cfg(test)]

@@ -1,5 +1,11 @@
 //! The parameters of Roden and Parberry, those of each method, and a few of our own.
 
+mod lit;
+mod weather;
+
+pub use lit::{LAYERS_AN_ITERATION, LitLayer, LitParams, MAX_LAYERS};
+pub use weather::{Lightning, WeatherParams};
+
 use crate::PerezParams;
 
 /// Which published system makes the clouds.
@@ -12,11 +18,13 @@ pub enum Method {
     Octaves,
     /// Octaves of smooth noise that drift, lit by a short ray march: I. Quilez, 2005. See [`crate::fbm`].
     Fbm,
+    /// Layers with normals, lit by sun and moon: K. Mukhina, A. Bezgodov, 2015. See [`crate::lit`].
+    Lit,
 }
 
 impl Method {
     /// Every method, in the order of their numbers.
-    pub const ALL: [Method; 3] = [Method::Packed, Method::Octaves, Method::Fbm];
+    pub const ALL: [Method; 4] = [Method::Packed, Method::Octaves, Method::Fbm, Method::Lit];
 
     /// The name on command lines and in settings.
     pub const fn name(self) -> &'static str {
@@ -24,6 +32,7 @@ impl Method {
             Method::Packed => "packed",
             Method::Octaves => "octaves",
             Method::Fbm => "fbm",
+            Method::Lit => "lit",
         }
     }
 }
@@ -158,6 +167,13 @@ pub struct SkyParams {
     pub octaves: OctaveParams,
     /// Of [`Method::Fbm`].
     pub fbm: FbmParams,
+    /// Of [`Method::Lit`].
+    pub lit: LitParams,
+    /// Rays, rain and lightning.
+    pub weather: WeatherParams,
+    /// Side of the square around the viewer whose cloud shadows [`crate::Sky::shadow`] gives, in metres, 0..=1000000; 0 for none.
+    /// Of [`Method::Lit`] alone.
+    pub shadow_extent_m: f32,
     /// Whether the sun's disc and glow are drawn.
     pub sun: bool,
     /// Whether stars and galaxy are drawn.
@@ -195,6 +211,9 @@ impl Default for SkyParams {
             method: Method::Packed,
             octaves: OctaveParams::default(),
             fbm: FbmParams::default(),
+            lit: LitParams::default(),
+            weather: WeatherParams::default(),
+            shadow_extent_m: 0.0,
             sun: true,
             stars: true,
             flare: 1.0,
@@ -244,6 +263,8 @@ impl SkyParams {
         }
         self.octaves.count = self.octaves.count.clamp(1, MAX_OCTAVES);
         self.perez.shape = self.perez.shape.clamped();
+        let lightning = &mut self.weather.lightning;
+        lightning.start_s = weather::clamped_start(lightning.start_s);
         self
     }
 
@@ -271,18 +292,19 @@ impl SkyParams {
                 expected: format!("a number from 1 to {MAX_OCTAVES}"),
             });
         }
+        weather::check_start(self.weather.lightning.start_s)?;
         self.perez.shape.check()
     }
 
     /// Every number that has a range.
-    fn numbers(&mut self) -> [Ranged<'_>; 23] {
+    fn numbers(&mut self) -> Vec<Ranged<'_>> {
         const UNIT: [f32; 2] = [0.0, 1.0];
         let usual = SkyParams::default();
         let [low, middle, high] = &mut self.octaves.domes;
         let [lit_r, lit_g, lit_b] = &mut self.fbm.lit;
         let [shaded_r, shaded_g, shaded_b] = &mut self.fbm.shaded;
         let (octaves, fbm) = (usual.octaves, usual.fbm);
-        [
+        let mut numbers = vec![
             ("cover", &mut self.cover, usual.cover, UNIT),
             ("height", &mut self.height, usual.height, UNIT),
             ("density", &mut self.density, usual.density, UNIT),
@@ -336,7 +358,16 @@ impl SkyParams {
             ("fbm.shaded[0]", shaded_r, fbm.shaded[0], UNIT),
             ("fbm.shaded[1]", shaded_g, fbm.shaded[1], UNIT),
             ("fbm.shaded[2]", shaded_b, fbm.shaded[2], UNIT),
-        ]
+            (
+                "shadow_extent_m",
+                &mut self.shadow_extent_m,
+                usual.shadow_extent_m,
+                [0.0, 1e6],
+            ),
+        ];
+        numbers.extend(lit::numbers(&mut self.lit));
+        numbers.extend(weather::numbers(&mut self.weather));
+        numbers
     }
 }
 
@@ -401,6 +432,11 @@ mod tests {
             told(&|p| p.perez.shape = PerezShape::Custom([0.0, -1.0, f32::NAN, -1.0, 0.0])),
             "perez.shape.c is NaN, expected a number from 0 to 30"
         );
+        assert_eq!(
+            told(&|p| p.weather.lightning.start_s = f64::NAN),
+            "weather.lightning.start_s is NaN, expected a number from -1000000000 to 1000000000"
+        );
+        assert!(told(&|p| p.weather.rain = 1.5).starts_with("weather.rain is 1.5"));
         assert!(told(&|p| p.octaves.domes[1] = 1.5).starts_with("octaves.domes[1] is 1.5"));
         assert!(told(&|p| p.cover = -0.1).starts_with("cover is -0.1"));
         assert!(told(&|p| p.exposure = f32::INFINITY).starts_with("exposure is inf"));

@@ -110,10 +110,10 @@ pub(crate) fn pipelines(
     config: &SkyConfig,
     module: &wgpu::ShaderModule,
     layouts: &Layouts,
-    method: Method,
+    own: Option<&wgpu::BindGroupLayout>,
     dome_mesh: bool,
 ) -> [wgpu::RenderPipeline; 4] {
-    let layout = layouts.pipeline_layout(device, own_layout(layouts, method));
+    let layout = layouts.pipeline_layout(device, own);
     let vertices = [Some(wgpu::VertexBufferLayout {
         array_stride: size_of::<Vertex>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
@@ -155,30 +155,63 @@ pub(crate) fn pipelines(
     })
 }
 
-/// The flare's pipeline: over everything, added by its own opacity (`glBlendFunc(GL_SRC_ALPHA, GL_ONE)`).
-pub(crate) fn flare_pipeline(
+/// What is drawn over the sky and the scene before it. Opacity of the target stays as it is.
+pub(crate) struct Overlay {
+    /// Of the vertex and the fragment shader.
+    pub entries: [&'static str; 2],
+    pub topology: wgpu::PrimitiveTopology,
+    /// What is left of the colour behind.
+    pub behind: wgpu::BlendFactor,
+}
+
+impl Overlay {
+    /// The flare is added by its own opacity (`glBlendFunc(GL_SRC_ALPHA, GL_ONE)`).
+    pub const FLARE: Overlay = Overlay {
+        entries: ["vs_flare", "fs_flare"],
+        topology: wgpu::PrimitiveTopology::TriangleStrip,
+        behind: wgpu::BlendFactor::One,
+    };
+    /// Rays lie over what is behind them.
+    pub const RAYS: Overlay = Overlay::over("fs_rays");
+    /// And so does rain.
+    pub const RAIN: Overlay = Overlay::over("fs_rain");
+
+    /// A triangle over the screen.
+    const fn over(fragment: &'static str) -> Overlay {
+        Overlay {
+            entries: ["vs_screen", fragment],
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            behind: wgpu::BlendFactor::OneMinusSrcAlpha,
+        }
+    }
+}
+
+/// The pipeline of an overlay; `own` is the layout of its group 1, if it has one.
+pub(crate) fn overlay_pipeline(
     device: &wgpu::Device,
     config: &SkyConfig,
     module: &wgpu::ShaderModule,
     layouts: &Layouts,
-    method: Method,
+    own: Option<&wgpu::BindGroupLayout>,
+    overlay: &Overlay,
 ) -> wgpu::RenderPipeline {
-    let layout = layouts.pipeline_layout(device, own_layout(layouts, method));
+    let layout = layouts.pipeline_layout(device, own);
     let component = |src_factor, dst_factor| wgpu::BlendComponent {
         src_factor,
         dst_factor,
         operation: wgpu::BlendOperation::Add,
     };
     let blend = wgpu::BlendState {
-        color: component(wgpu::BlendFactor::SrcAlpha, wgpu::BlendFactor::One),
+        color: component(wgpu::BlendFactor::SrcAlpha, overlay.behind),
         alpha: component(wgpu::BlendFactor::Zero, wgpu::BlendFactor::One),
     };
+    let [vertex, fragment] = overlay.entries;
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("lens flare"),
+        label: Some(fragment),
         layout: Some(&layout),
-        vertex: vertex_state(module, "vs_flare", &[]),
+        vertex: vertex_state(module, vertex, &[]),
         primitive: wgpu::PrimitiveState {
-            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            topology: overlay.topology,
             ..Default::default()
         },
         depth_stencil: config.depth.map(|depth| wgpu::DepthStencilState {
@@ -188,7 +221,7 @@ pub(crate) fn flare_pipeline(
         multisample: multisample_state(config),
         fragment: Some(wgpu::FragmentState {
             module,
-            entry_point: Some("fs_flare"),
+            entry_point: Some(fragment),
             compilation_options: Default::default(),
             targets: &[Some(wgpu::ColorTargetState {
                 format: config.target_format,
@@ -202,10 +235,11 @@ pub(crate) fn flare_pipeline(
 }
 
 /// What the dome of a method reads in group 1.
-fn own_layout(layouts: &Layouts, method: Method) -> Option<&wgpu::BindGroupLayout> {
+pub(crate) fn own_layout(layouts: &Layouts, method: Method) -> Option<&wgpu::BindGroupLayout> {
     match method {
         Method::Packed => None,
         Method::Octaves | Method::Fbm => Some(&layouts.texture),
+        Method::Lit => Some(&layouts.lit),
     }
 }
 

@@ -10,13 +10,13 @@ use wgpu::util::DeviceExt;
 
 use crate::frame::Facts;
 use crate::layouts::{Layouts, shared_group};
-use crate::pipeline::{Variant, flare_pipeline, output, pipelines};
-use crate::shader::{Build, compose};
+use crate::pipeline::{Variant, output};
+use crate::program::{Common, OwnMap, Program};
+use crate::shader::Build;
+use crate::shadow::{self, Shadow};
 use crate::uniforms::Uniforms;
 use crate::upload::upload;
-use crate::{
-    Camera, Method, SkyError, SkyModel, SkyParams, dome, fbm_map, flares, map, octaves_map, tonemap,
-};
+use crate::{Camera, Method, SkyError, SkyModel, SkyParams, dome, flares, octaves_map, tonemap};
 
 /// What the sky is drawn onto.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,40 +42,16 @@ pub struct DepthConfig {
 /// A sky on a device.
 #[derive(Debug)]
 pub struct Sky {
-    device: wgpu::Device,
-    config: SkyConfig,
-    build: Build,
-    layouts: Layouts,
+    common: Common,
     shared: wgpu::BindGroup,
     buffer: wgpu::Buffer,
-    /// The octaves of [`Method::Fbm`] as the pack has them.
-    fbm: wgpu::Texture,
     /// Bytes that each method's own textures of the pack have, at its place in [`Method::ALL`].
     pack_bytes: [u64; Method::ALL.len()],
     facts: Facts,
     step: f32,
     dome: Option<DomeBuffers>,
-    /// Whether the target can be added to.
-    blends: bool,
     programs: [Option<Program>; Method::ALL.len()],
     prepared: Option<Prepared>,
-}
-
-/// What only one method needs.
-#[derive(Debug)]
-struct Program {
-    /// Of each sky model, at its place in [`SkyModel::ALL`].
-    pipelines: [Option<[wgpu::RenderPipeline; 4]>; SkyModel::ALL.len()],
-    flare: Option<wgpu::RenderPipeline>,
-    map: OwnMap,
-}
-
-/// The off-screen part of a method.
-#[derive(Debug)]
-enum OwnMap {
-    None,
-    Octaves(Box<octaves_map::Pass>),
-    Fbm(Box<fbm_map::Pass>),
 }
 
 /// What the prepared frame draws with.
@@ -84,7 +60,10 @@ struct Prepared {
     method: Method,
     sky: SkyModel,
     variant: Variant,
+    rays: bool,
+    rain: bool,
     flare: bool,
+    shadow: Option<shadow::Area>,
 }
 
 /// The dome's mesh on the device.
@@ -154,21 +133,26 @@ impl Sky {
             })
         };
         let usable = config.target_format.guaranteed_format_features(features);
-        Ok(Sky {
-            shared: shared_group(device, queue, pack, &layouts, &buffer)?,
+        let common = Common {
             fbm: upload(device, queue, pack, Role::Fbm)?,
-            pack_bytes: [Role::Clouds, Role::Octaves, Role::Fbm].map(bytes),
-            step: tonemap::step(config.target_format),
-            dome: dome_step_deg.map(|step| dome_buffers(device, step)),
+            layers: upload(device, queue, pack, Role::Layers)?,
+            mesh: dome_step_deg.is_some(),
             blends: usable
                 .flags
                 .contains(wgpu::TextureFormatFeatureFlags::BLENDABLE),
-            programs: [const { None }; Method::ALL.len()],
-            prepared: None,
             device: device.clone(),
             config,
             build,
             layouts,
+        };
+        Ok(Sky {
+            shared: shared_group(device, queue, pack, &common.layouts, &buffer)?,
+            pack_bytes: [Role::Clouds, Role::Octaves, Role::Fbm, Role::Layers].map(bytes),
+            step: tonemap::step(config.target_format),
+            dome: dome_step_deg.map(|step| dome_buffers(device, step)),
+            programs: [const { None }; Method::ALL.len()],
+            prepared: None,
+            common,
             buffer,
             facts,
         })
@@ -176,7 +160,8 @@ impl Sky {
 
     /// Compiles the shader of a method with a sky model and makes the method's map, so that their first frame need not.
     pub fn load(&mut self, method: Method, sky: SkyModel) {
-        self.program(method, sky, octaves_map::DEFAULT_COUNT);
+        let octaves = octaves_map::DEFAULT_COUNT;
+        fitting(&mut self.programs, &self.common, method, sky, octaves);
     }
 
     /// Computes a frame: writes its uniforms and records the off-screen passes of its method into `encoder`, before the
@@ -199,21 +184,41 @@ impl Sky {
             Method::Octaves => self.facts.octave_states(&params, seconds),
             _ => Vec::new(),
         };
-        let shared = self.shared.clone();
-        let program = self.program(params.method, params.sky, params.octaves.count);
+        let program = fitting(
+            &mut self.programs,
+            &self.common,
+            params.method,
+            params.sky,
+            params.octaves.count,
+        );
         match &mut program.map {
             OwnMap::None => {}
-            OwnMap::Octaves(pass) => pass.record(queue, encoder, &shared, &states),
+            OwnMap::Octaves(pass) => pass.record(queue, encoder, &self.shared, &states),
             OwnMap::Fbm(pass) => {
                 let [x, y, ..] = uniforms.fbm.step;
-                pass.record(encoder, &shared, [x, y]);
+                pass.record(encoder, &self.shared, [x, y]);
             }
+            OwnMap::Lit(pass) => pass.record(encoder, &self.shared, uniforms.lit.dome[2] as usize),
+        }
+        let shadow = shadow::Area::of(&params, camera.position_m().as_dvec3());
+        if shadow.is_some() {
+            program.record_shadow(&self.common, encoder, &self.shared);
+        }
+        let (rays, rain) = (uniforms.rays.sun[3] > 0.0, uniforms.rain.right[3] > 0.0);
+        if rays {
+            program.record_rays(&self.common, encoder, &self.shared);
+        }
+        if rain {
+            program.fit_rain(&self.common);
         }
         self.prepared = Some(Prepared {
             method: params.method,
             sky: params.sky,
             variant: Variant::of(&uniforms),
+            rays,
+            rain,
             flare: uniforms.flares.light[0] > 0.0,
+            shadow,
         });
     }
 
@@ -228,8 +233,8 @@ impl Sky {
             return;
         };
         pass.set_bind_group(0, &self.shared, &[]);
-        if let Some(map) = program.map.map() {
-            pass.set_bind_group(1, &map.group, &[]);
+        if let Some(group) = program.map.group() {
+            pass.set_bind_group(1, group, &[]);
         }
         pass.set_pipeline(&pipelines[prepared.variant.index()]);
         match &self.dome {
@@ -240,8 +245,21 @@ impl Sky {
                 pass.draw_indexed(0..dome.count, 0, 0..1);
             }
         }
+        // What lies over the sky, from the farthest to the nearest.
+        if let Some(rays) = program.rays.as_ref().filter(|_| prepared.rays) {
+            pass.set_pipeline(&rays.overlay);
+            pass.set_bind_group(1, rays.group(), &[]);
+            pass.draw(0..3, 0..1);
+        }
+        if let Some(rain) = program.rain.as_ref().filter(|_| prepared.rain) {
+            pass.set_pipeline(rain);
+            pass.draw(0..3, 0..1);
+        }
         if let Some(flare) = program.flare.as_ref().filter(|_| prepared.flare) {
             pass.set_pipeline(flare);
+            if let Some(group) = program.map.group() {
+                pass.set_bind_group(1, group, &[]);
+            }
             pass.draw(0..4, 0..flares::COUNT);
         }
     }
@@ -252,81 +270,47 @@ impl Sky {
     /// the cover in alpha).
     pub fn cloud_map(&self) -> Option<&wgpu::Texture> {
         let (_, program) = self.current()?;
-        program.map.map().map(map::Map::texture)
+        program.map.texture()
     }
 
-    /// Bytes of the textures that only this method reads: its own of the pack and, once it is loaded, its map.
+    /// The shadows that the clouds of the prepared frame throw on the ground: see [`crate::shadow`].
+    ///
+    /// None without [`Method::Lit`], and where [`SkyParams::shadow_extent_m`] is 0.
+    pub fn shadow(&self) -> Option<Shadow<'_>> {
+        let (prepared, program) = self.current()?;
+        let area = prepared.shadow?;
+        Some(Shadow {
+            texture: program.shadow()?,
+            centre_m: area.centre_m.as_vec2().to_array(),
+            extent_m: area.extent_m as f32,
+        })
+    }
+
+    /// Bytes of the textures that only this method reads: its own of the pack and, once they are made, those that it draws.
     pub fn memory_bytes(&self, method: Method) -> u64 {
-        let own = self.programs[method as usize]
-            .as_ref()
-            .map_or(0, |program| match &program.map {
-                OwnMap::None => 0,
-                OwnMap::Octaves(pass) => pass.bytes(),
-                OwnMap::Fbm(pass) => pass.bytes(),
-            });
-        self.pack_bytes[method as usize] + own
+        let own = self.programs[method as usize].as_ref();
+        self.pack_bytes[method as usize] + own.map_or(0, Program::bytes)
     }
 
     fn current(&self) -> Option<(Prepared, &Program)> {
         let prepared = self.prepared?;
         Some((prepared, self.programs[prepared.method as usize].as_ref()?))
     }
-
-    /// The program of a method with the pipelines of a sky model, made if they are not there yet; `octaves` is how many
-    /// [`Method::Octaves`] sums.
-    fn program(&mut self, method: Method, sky: SkyModel, octaves: u32) -> &mut Program {
-        let (device, layouts, config) = (&self.device, &self.layouts, &self.config);
-        let build = Build {
-            method,
-            sky,
-            ..self.build
-        };
-        let module = || {
-            device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(method.name()),
-                source: wgpu::ShaderSource::Wgsl(compose(build).into()),
-            })
-        };
-        let mesh = self.dome.is_some();
-        let slot = &mut self.programs[method as usize];
-        let new = || {
-            let module = module();
-            let mut models = [const { None }; SkyModel::ALL.len()];
-            models[sky as usize] = Some(pipelines(device, config, &module, layouts, method, mesh));
-            Program {
-                pipelines: models,
-                flare: self
-                    .blends
-                    .then(|| flare_pipeline(device, config, &module, layouts, method)),
-                map: match method {
-                    Method::Packed => OwnMap::None,
-                    Method::Octaves => OwnMap::Octaves(
-                        octaves_map::Pass::new(device, &module, layouts, octaves).into(),
-                    ),
-                    Method::Fbm => {
-                        OwnMap::Fbm(fbm_map::Pass::new(device, &module, layouts, &self.fbm).into())
-                    }
-                },
-            }
-        };
-        let program = slot.get_or_insert_with(new);
-        program.pipelines[sky as usize]
-            .get_or_insert_with(|| pipelines(device, config, &module(), layouts, method, mesh));
-        if let OwnMap::Octaves(pass) = &mut program.map {
-            pass.fit(device, layouts, octaves);
-        }
-        program
-    }
 }
 
-impl OwnMap {
-    fn map(&self) -> Option<&map::Map> {
-        match self {
-            OwnMap::None => None,
-            OwnMap::Octaves(pass) => Some(&pass.map),
-            OwnMap::Fbm(pass) => Some(&pass.map),
-        }
-    }
+/// The program of a method with the pipelines of a sky model, made if they are not there yet; `octaves` is how many
+/// [`Method::Octaves`] sums.
+fn fitting<'a>(
+    programs: &'a mut [Option<Program>; Method::ALL.len()],
+    common: &Common,
+    method: Method,
+    sky: SkyModel,
+    octaves: u32,
+) -> &'a mut Program {
+    let new = || Program::new(common, method, sky, octaves);
+    let program = programs[method as usize].get_or_insert_with(new);
+    program.fit(common, sky, octaves);
+    program
 }
 
 fn dome_buffers(device: &wgpu::Device, step_deg: f32) -> DomeBuffers {

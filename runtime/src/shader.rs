@@ -6,12 +6,12 @@ use glam::Vec3;
 use welkin_pack::mapping::{STAR_TILE_SIDE, STAR_TILE_START};
 
 use crate::{
-    Method, SkyModel, clouds, dome, fbm, fbm_map, galaxy, octaves, octaves_map, packed, perez, sky,
-    stars, sun, tonemap,
+    Method, SkyModel, clouds, dome, fbm, fbm_map, galaxy, light, lightning, lit, lit_map, octaves,
+    octaves_map, packed, perez, rain, rays, sky, stars, sun, tonemap,
 };
 
 /// The WGSL files in the order in which they are joined.
-const PARTS: [&str; 20] = [
+const PARTS: [&str; 26] = [
     include_str!("../shaders/uniforms.wgsl"),
     include_str!("../shaders/camera.wgsl"),
     include_str!("../shaders/dome.wgsl"),
@@ -28,7 +28,13 @@ const PARTS: [&str; 20] = [
     include_str!("../shaders/fbm.wgsl"),
     include_str!("../shaders/fbm_map.wgsl"),
     include_str!("../shaders/fbm_pack.wgsl"),
+    include_str!("../shaders/lit.wgsl"),
+    include_str!("../shaders/lit_map.wgsl"),
+    include_str!("../shaders/shadow.wgsl"),
+    include_str!("../shaders/lightning.wgsl"),
     include_str!("../shaders/map.wgsl"),
+    include_str!("../shaders/rays.wgsl"),
+    include_str!("../shaders/rain.wgsl"),
     include_str!("../shaders/flares.wgsl"),
     include_str!("../shaders/tonemap.wgsl"),
     include_str!("../shaders/renderer.wgsl"),
@@ -75,8 +81,9 @@ pub fn compose(build: Build) -> String {
     let method = build.method.name();
     let _ = write!(
         text,
-        "\n// Radiance and opacity of the clouds along a unit direction above the horizon.\n\
-         fn cloud_layer(direction: vec3f) -> vec4f {{\n    return {method}_layer(direction);\n}}\n"
+        "\n// Radiance and opacity of the clouds along a unit direction above the horizon, for a pixel that is so much narrower\n\
+         // than one in the middle of the screen.\n\
+         fn cloud_layer(direction: vec3f, narrowing: f32) -> vec4f {{\n    return {method}_layer(direction, narrowing);\n}}\n"
     );
     text
 }
@@ -92,6 +99,12 @@ fn constants(build: Build) -> String {
     let _ = writeln!(text, "const OUTPUT = {}u;", build.output as u32);
     let _ = writeln!(text, "const SKYBOX = {};", build.skybox);
     let _ = writeln!(text, "const PEREZ = {};", build.sky == SkyModel::Perez);
+    // Packed clouds are hardly ever opaque: to ask costs more than it saves.
+    let _ = writeln!(
+        text,
+        "const ASK_OPAQUE = {};",
+        build.method != Method::Packed
+    );
     let numbers = [
         ("FAR_DEPTH", if build.reversed_depth { 0.0 } else { 1.0 }),
         ("PI", std::f32::consts::PI),
@@ -127,6 +140,25 @@ fn constants(build: Build) -> String {
         ("FBM_ROUGH_SHADE", fbm::ROUGH_SHADE),
         ("FBM_ABSORPTION", fbm_map::ABSORPTION),
         ("FBM_FULL", fbm::FULL),
+        ("LIT_FINER", lit::FINER),
+        ("LIT_FINER_LEVEL", lit::FINER.log2()),
+        ("LIT_FINER_RELIEF", lit::FINER_RELIEF),
+        ("LIT_SHADED_BY_LAYER", lit::SHADED_BY_LAYER),
+        ("LIT_LEAST_STRETCH", lit::LEAST_STRETCH),
+        ("LIT_LEAST_UP", lit_map::LEAST_UP),
+        ("LIT_STEP_LEVEL", lit_map::STEP_LEVEL),
+        ("LIGHTNING_CORE", lightning::CORE),
+        ("LIGHTNING_THIN", lightning::THIN),
+        ("RAYS_REACH", rays::REACH),
+        ("RAYS_DECAY", rays::DECAY),
+        ("RAYS_SOURCE", rays::SOURCE),
+        ("RAYS_WINDOW", rays::WINDOW),
+        ("RAYS_GAIN", rays::GAIN),
+        ("RAYS_HORIZON", rays::HORIZON),
+        ("RAYS_GROUND", rays::GROUND),
+        ("RAYS_CORE", rays::CORE),
+        ("RAIN_HAZE_ABOVE", rain::HAZE_ABOVE),
+        ("RAIN_HAZE_FALL", rain::HAZE_FALL),
         ("TONE_SHOULDER", tonemap::SHOULDER),
         ("GALAXY_GRAIN_SCALE", galaxy::GRAIN_SCALE),
         ("TONE_KNEE", tonemap::KNEE),
@@ -139,10 +171,25 @@ fn constants(build: Build) -> String {
         "const OCTAVE_RELIEF_COUNT = {};",
         octaves_map::RELIEF_COUNT
     );
+    for (name, value) in [("RAYS_TAPS", rays::TAPS), ("RAYS_AROUND", rays::AROUND)] {
+        let _ = writeln!(text, "const {name} = {value};");
+    }
+    let _ = writeln!(text, "const LIT_STEPS = {};", lit_map::STEPS);
+    let _ = writeln!(
+        text,
+        "const LIT_LAYERS_AN_ITERATION = {};",
+        crate::params::LAYERS_AN_ITERATION
+    );
     for (name, [x, y]) in [
         ("STAR_START", STAR_TILE_START),
         ("OCTAVE_FINER_START", octaves::FINER_START),
         ("FBM_FINER_START", fbm::FINER_START),
+        ("LIT_FINER_START", lit::FINER_START),
+        ("LIT_AMBIENT", lit::AMBIENT),
+        ("LIGHTNING_SPREAD", lightning::SPREAD),
+        ("RAYS_TEXEL", rays::TEXEL_RAD),
+        ("RAYS_SIZE", rays::SIZE.map(|side| side as f32)),
+        ("LIT_WEIGHTS", lit_map::WEIGHTS),
     ] {
         let _ = writeln!(text, "const {name} = vec2f({x:?}, {y:?});");
     }
@@ -151,6 +198,7 @@ fn constants(build: Build) -> String {
     }
     let [rgb_x, rgb_y, rgb_z] = perez::RGB_OF_XYZ;
     for (name, colour) in [
+        ("LUMINANCE", light::LUMINANCE),
         ("STAR_WARM", stars::WARM),
         ("STAR_COLD", stars::COLD),
         ("PEREZ_DAYLIGHT", perez::DAYLIGHT.into()),
@@ -218,13 +266,18 @@ mod tests {
                 "fs_octaves_map",
                 "fs_fbm_map",
                 "fs_fbm_pack",
+                "fs_lit_map",
+                "fs_lit_level",
+                "fs_shadow",
                 "vs_map",
                 "fs_level",
             ];
+            let rays = ["fs_rays_mask", "fs_rays_sum", "fs_rays_streaks", "fs_rays"];
             let sky = [
                 ["vs_screen", "vs_dome"].as_slice(),
                 &passes,
-                &["vs_flare", "fs_flare", "fs_sky"],
+                &rays,
+                &["fs_rain", "vs_flare", "fs_flare", "fs_sky"],
             ];
             assert_eq!(entries, sky.concat());
         }
@@ -315,7 +368,7 @@ mod tests {
             overcast
         );
         assert_same_layout!(module, PerezUniforms, sun, a, b, c, d, e, base, zenith);
-        assert_same_layout!(module, SunUniforms, right, up, disc, glow);
+        assert_same_layout!(module, SunUniforms, right, up, disc, glow, towards);
         assert_same_layout!(module, StarUniforms, field);
         assert_same_layout!(module, GalaxyUniforms, light);
         assert_same_layout!(module, SkyboxUniforms, mix);
@@ -359,11 +412,27 @@ mod tests {
             weights_a,
             weights_b
         );
+        assert_same_layout!(module, LitLayerUniforms, axes, place, shape, sun, facing);
+        assert_same_layout!(module, LitUniforms, dome, light, towards, ambient, layers);
+        assert_same_layout!(module, ShadowUniforms, layers);
+        assert_same_layout!(module, LightningUniforms, place, light);
+        assert_same_layout!(module, RayUniforms, sun, right, up, bright, dark);
+        assert_same_layout!(
+            module,
+            RainUniforms,
+            right,
+            up,
+            forward,
+            streak,
+            haze,
+            cylinders,
+            widths
+        );
         assert_same_layout!(module, FlareUniforms, light, places, colours, cells);
         assert_same_layout!(module, TonemapUniforms, display);
         assert_same_layout!(
             module, Uniforms, camera, sky, perez, sun, stars, galaxy, skybox, clouds, packed,
-            octaves, fbm, flares, tonemap
+            octaves, fbm, lit, shadow, lightning, rays, rain, flares, tonemap
         );
         assert_eq!(
             size_of::<Uniforms>() % 16,

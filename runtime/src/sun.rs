@@ -64,6 +64,7 @@ pub fn uniforms(
             colour * (GLOW_RADIANCE * set * (1.0 + sky::low_sun(light))),
             level(GLOW_HALF_SIDE),
         ),
+        towards: vec4(light.sun_direction, 0.0),
     }
 }
 

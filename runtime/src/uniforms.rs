@@ -75,6 +75,8 @@ pub struct SunUniforms {
     pub disc: [f32; 4],
     /// rgb: radiance of the glow; w: level of the texture for it.
     pub glow: [f32; 4],
+    /// xyz: unit direction towards what is drawn, the sun or the moon.
+    pub towards: [f32; 4],
 }
 
 /// Stars.
@@ -195,6 +197,92 @@ pub struct FbmUniforms {
     pub weights_b: [f32; 4],
 }
 
+/// A layer of the lit method.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct LitLayerUniforms {
+    /// xy: what a height of the dome to the east, zw: to the south adds to uv.
+    pub axes: [f32; 4],
+    /// xy: offset; zw: how far the second read is from the first.
+    pub place: [f32; 4],
+    /// x: the cut; y: 1 / thickness at which it is opaque; z: opacity where thick; w: how fast shade deepens.
+    pub shape: [f32; 4],
+    /// xy: a step of the shade towards the sun, in uv; z: level of detail at distance 1; w: layer of the pack's texture.
+    pub sun: [f32; 4],
+    /// xy: horizontal part of the direction to the sun, along u and v; z: share of the grain; w: relief.
+    pub facing: [f32; 4],
+}
+
+/// Clouds of the lit method.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct LitUniforms {
+    /// x: `f^2`; y: `1 - f^2`, f the flattening; z: layers; w: texels a side of the map.
+    pub dome: [f32; 4],
+    /// rgb: light of sun or moon on clouds; w: k1.
+    pub light: [f32; 4],
+    /// xyz: unit direction towards sun or moon; w: k2.
+    pub towards: [f32; 4],
+    /// rgb: light of the sky on clouds; w: m.
+    pub ambient: [f32; 4],
+    /// From the lowest to the highest.
+    pub layers: [LitLayerUniforms; crate::params::MAX_LAYERS],
+}
+
+/// Shadows of the lit method's clouds.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct ShadowUniforms {
+    /// Of each layer, xy: where its dome is seen in the corner of the texture; z: what a texel adds; w: level of detail.
+    pub layers: [[f32; 4]; crate::params::MAX_LAYERS],
+}
+
+/// A flash of lightning, all 0 without one.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct LightningUniforms {
+    /// xy: where it is on the plane of the dome; w: 1 / luminance of the brightest cloud without it.
+    pub place: [f32; 4],
+    /// rgb: its light.
+    pub light: [f32; 4],
+}
+
+/// Crepuscular rays.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct RayUniforms {
+    /// xyz: unit direction towards the sun; w: opacity of the strongest ray, 0 without rays.
+    pub sun: [f32; 4],
+    /// xyz: unit vector across it, along the horizon.
+    pub right: [f32; 4],
+    /// xyz: the third one, away from the horizon.
+    pub up: [f32; 4],
+    /// rgb: radiance of haze in the light; w: halvings of the rays by a chord of 1.
+    pub bright: [f32; 4],
+    /// rgb: radiance of haze in the shade; w: 1 / a pixel in the middle of the screen, in radians.
+    pub dark: [f32; 4],
+}
+
+/// Rain, all 0 without.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct RainUniforms {
+    /// xyz: unit vector across the fall; w: share of cells that hold a drop.
+    pub right: [f32; 4],
+    /// xyz: unit vector against the fall; w: a pixel in the middle of the screen, in radians.
+    pub up: [f32; 4],
+    /// xyz: the third one.
+    pub forward: [f32; 4],
+    /// rgb: radiance of a streak; w: opacity.
+    pub streak: [f32; 4],
+    /// rgb: radiance of the haze; w: its opacity at the horizon.
+    pub haze: [f32; 4],
+    /// Of each cylinder, x: columns; y: cells along it for each radius; z: fraction, w: whole part of the cells fallen.
+    pub cylinders: [[f32; 4]; crate::rain::CYLINDERS],
+    /// x: columns over half the width of a streak; y: 1 / half its length, in cells; z: opacity; w: how little room columns leave it.
+    pub widths: [[f32; 4]; crate::rain::CYLINDERS],
+}
+
 /// The lens flare.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -243,6 +331,16 @@ pub struct Uniforms {
     pub octaves: OctaveUniforms,
     /// Clouds of the fbm method.
     pub fbm: FbmUniforms,
+    /// Clouds of the lit method.
+    pub lit: LitUniforms,
+    /// Shadows of the lit method's clouds.
+    pub shadow: ShadowUniforms,
+    /// A flash of lightning.
+    pub lightning: LightningUniforms,
+    /// Crepuscular rays.
+    pub rays: RayUniforms,
+    /// Rain.
+    pub rain: RainUniforms,
     /// The lens flare.
     pub flares: FlareUniforms,
     /// The last step.

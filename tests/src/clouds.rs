@@ -8,10 +8,7 @@ use welkin_runtime::uniforms::{CloudUniforms, Uniforms};
 
 use crate::dome::DomeHit;
 use crate::texture::{Texture, smoothstep};
-use crate::{fbm, octaves, packed, xyz};
-
-/// Reads of clouds or of a map that a layer makes at most.
-pub const MOST_READS: usize = 5;
+use crate::{fbm, lit, octaves, packed, xyz};
 
 /// What a layer of clouds is computed from.
 #[derive(Clone, Copy, Debug)]
@@ -20,20 +17,32 @@ pub struct Inputs<'a> {
     pub uniforms: &'a Uniforms,
     /// The pack's clouds.
     pub clouds: &'a Texture,
-    /// The map of the method, if it has one.
-    pub map: Option<&'a Texture>,
-    /// What is added to each read of a cloud amount, in the order of the reads: 0, but where a test asks what a
-    /// texture unit's error is worth in the picture.
-    pub nudges: [f32; MOST_READS],
+    /// The layers of the map of the method, if it draws one.
+    pub map: &'a [Texture],
+    /// The pack's layers of the lit method, at the place of their kind.
+    pub layers: &'a [Texture],
+    /// What is added to each of [`reads`], in their order: 0, but where a test asks what a texture unit's error is worth
+    /// in the picture.
+    pub nudges: &'a [f32],
 }
 
 impl Inputs<'_> {
-    /// A read of the map.
+    /// A read of the map of a method that has one layer.
     ///
     /// # Panics
     /// If the method has none.
     pub fn map_at(&self, uv: [f32; 2], level: f32) -> [f32; 4] {
-        self.map.expect("the method has a map").sample(uv, level)
+        self.map[0].sample(uv, level)
+    }
+}
+
+/// How many channels of clouds or of a map a method reads in a place.
+pub fn reads(method: Method, uniforms: &Uniforms) -> usize {
+    match method {
+        Method::Packed => 4,
+        Method::Octaves => 5,
+        Method::Fbm => 3,
+        Method::Lit => lit::reads(&uniforms.lit),
     }
 }
 
@@ -44,6 +53,7 @@ pub fn layer(method: Method, inputs: &Inputs, direction: Vec3, narrowing: f32) -
         Method::Packed => packed::layer(inputs, direction, narrowing),
         Method::Octaves => octaves::layer(inputs, direction, narrowing),
         Method::Fbm => fbm::layer(inputs, direction, narrowing),
+        Method::Lit => lit::layer(inputs, direction, narrowing),
     }
 }
 

@@ -17,12 +17,11 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     let uv = Vec2::new(east_u, east_v) * hit.plane.x
         + Vec2::new(south_u, south_v) * hit.plane.y
         + Vec2::new(offset_x, offset_y);
-    let [nudge_shade, nudge_cover, nudge_finer, ..] = inputs.nudges;
     let [shade, _, _, cover] = inputs.map_at(uv.to_array(), level);
-    let (shade, cover) = (shade + nudge_shade, cover + nudge_cover);
+    let (shade, cover) = (shade + inputs.nudges[0], cover + inputs.nudges[1]);
     let finer_uv = uv * FINER + Vec2::from(FINER_START);
     let [_, sum, ..] = inputs.map_at(finer_uv.to_array(), level + libm::log2f(FINER));
-    let finer = sum + nudge_finer - fbm.step[2];
+    let finer = sum + inputs.nudges[2] - fbm.step[2];
     let rough = 4.0 * fbm.shaded[3] * finer * cover * (1.0 - cover);
     let shade = (fbm.lit[3] * (shade + ROUGH_SHADE * finer * cover)).clamp(0.0, 1.0);
     let tint = Vec3::ONE.lerp(

@@ -117,19 +117,22 @@ pub fn pass(
 /// # Panics
 /// As [`read_level`].
 pub fn read(target: &wgpu::Texture) -> Vec<[f32; 4]> {
-    read_level(target, 0)
+    read_level(target, 0, 0)
 }
 
-/// The same of one level.
+/// The same of one level of one layer.
 ///
 /// # Panics
-/// On formats other than 8-bit RGBA and Rgba16Float, and if the device is lost.
-pub fn read_level(target: &wgpu::Texture, level: u32) -> Vec<[f32; 4]> {
+/// On formats other than 8-bit R, RG and RGBA and floats of RGBA, and if the device is lost.
+pub fn read_level(target: &wgpu::Texture, level: u32, layer: u32) -> Vec<[f32; 4]> {
     let texel_bytes = target
         .format()
         .block_copy_size(None)
         .expect("a colour format");
-    let size = target.size().mip_level_size(level, target.dimension());
+    let size = wgpu::Extent3d {
+        depth_or_array_layers: 1,
+        ..target.size().mip_level_size(level, target.dimension())
+    };
     let row_bytes = size.width * texel_bytes;
     let stride = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let Gpu { device, queue, .. } = gpu();
@@ -146,6 +149,10 @@ pub fn read_level(target: &wgpu::Texture, level: u32) -> Vec<[f32; 4]> {
     };
     let from = wgpu::TexelCopyTextureInfo {
         mip_level: level,
+        origin: wgpu::Origin3d {
+            z: layer,
+            ..wgpu::Origin3d::ZERO
+        },
         ..target.as_image_copy()
     };
     let to = wgpu::TexelCopyBufferInfo {
@@ -175,24 +182,32 @@ pub fn read_level(target: &wgpu::Texture, level: u32) -> Vec<[f32; 4]> {
 
 fn texel(bytes: &[u8]) -> [f32; 4] {
     match bytes.len() {
+        1 | 2 => [0, 1, 2, 3].map(|c| f32::from(bytes.get(c).copied().unwrap_or(0)) / 255.0),
         4 => [0, 1, 2, 3].map(|c| f32::from(bytes[c]) / 255.0),
+        16 => [0, 4, 8, 12]
+            .map(|c| f32::from_le_bytes([bytes[c], bytes[c + 1], bytes[c + 2], bytes[c + 3]])),
         8 => [0, 1, 2, 3]
             .map(|c| half::f16::from_le_bytes([bytes[2 * c], bytes[2 * c + 1]]).to_f32()),
         n => panic!("texels of {n} bytes are not read back here"),
     }
 }
 
-/// The cloud map of the prepared frame with its levels, if its method draws one.
-pub fn read_map(sky: &Sky) -> Option<Texture> {
-    let map = sky.cloud_map()?;
-    let level = |level: u32| Image {
+/// The layers of the cloud map of the prepared frame with their levels, if its method draws one.
+pub fn read_map(sky: &Sky) -> Vec<Texture> {
+    let Some(map) = sky.cloud_map() else {
+        return Vec::new();
+    };
+    let image = |level: u32, layer: u32| Image {
         width: map.width() >> level,
         height: map.height() >> level,
         channels: 4,
-        texels: read_level(map, level).concat(),
+        texels: read_level(map, level, layer).concat(),
     };
-    let levels = (0..map.mip_level_count()).map(level).collect();
-    Some(Texture::from_levels(levels, Wrap::Repeat))
+    let layer = |layer: u32| {
+        let levels = (0..map.mip_level_count()).map(|level| image(level, layer));
+        Texture::from_levels(levels.collect(), Wrap::Repeat)
+    };
+    (0..map.depth_or_array_layers()).map(layer).collect()
 }
 
 /// The first three channels of texels.

@@ -7,16 +7,17 @@ use welkin_runtime::galaxy::EXTINCTION;
 use welkin_runtime::uniforms::Uniforms;
 use welkin_runtime::{Camera, Method, SkyParams};
 
-use crate::clouds::{Inputs, MOST_READS};
+use crate::clouds::Inputs;
 use crate::skybox::{self, Skybox};
 use crate::texture::{Texture, smoothstep};
 use crate::{
-    camera, clouds, fbm_map, fbm_pack, flares, galaxy, map, octaves_map, sky, stars, sun, xyz,
+    camera, clouds, fbm_map, fbm_pack, flares, galaxy, lightning, lit_map, map, octaves_map, sky,
+    stars, sun, xyz,
 };
 
 /// A texture unit may filter 8-bit texels in 8 bits (Mesa's software does; Vulkan asks for no more), which makes a
 /// read wrong by up to one step, 1/255.
-pub const FILTER_STEP: [f32; MOST_READS] = [1.0 / 255.0; MOST_READS];
+pub const FILTER_STEP: f32 = 1.0 / 255.0;
 
 /// A pack made ready for the twin.
 pub struct Twin<'a> {
@@ -27,19 +28,21 @@ pub struct Twin<'a> {
     sky: Texture,
     sun: Texture,
     flares: Texture,
+    layers: Vec<Texture>,
     skybox: Option<Skybox>,
 }
 
 /// A frame of a twin: everything that its pixels are computed from.
 pub struct Frame<'a> {
     twin: &'a Twin<'a>,
-    method: Method,
+    /// Whose clouds it has.
+    pub method: Method,
     /// The frame's constants.
     pub uniforms: Uniforms,
-    /// The map of the method, if it has one.
-    pub map: Option<Texture>,
+    /// The layers of the map of the method, if it draws one.
+    pub map: Vec<Texture>,
     /// See [`Inputs::nudges`].
-    pub nudges: [f32; MOST_READS],
+    pub nudges: Vec<f32>,
     /// The states of the octaves, if the method has them.
     states: Vec<f32>,
     seconds: f64,
@@ -60,21 +63,23 @@ impl<'a> Twin<'a> {
             sky: texture(Role::Sky),
             sun: texture(Role::Sun),
             flares: texture(Role::Flares),
+            layers: lit_map::kinds(pack),
             skybox: Skybox::new(pack),
         }
     }
 
     /// A frame whose map is yet to be given, if its method has one.
     pub fn frame_without_map(&self, params: &SkyParams, view: &Camera, seconds: f64) -> Frame<'_> {
+        let uniforms = self.facts.uniforms(params, view, seconds, 0.0);
         Frame {
             twin: self,
             method: params.method,
-            uniforms: self.facts.uniforms(params, view, seconds, 0.0),
-            map: None,
-            nudges: [0.0; MOST_READS],
+            uniforms,
+            map: Vec::new(),
+            nudges: vec![0.0; clouds::reads(params.method, &uniforms)],
             states: match params.method {
                 Method::Octaves => self.facts.octave_states(params, seconds),
-                Method::Packed | Method::Fbm => Vec::new(),
+                Method::Packed | Method::Fbm | Method::Lit => Vec::new(),
             },
             seconds,
         }
@@ -83,7 +88,8 @@ impl<'a> Twin<'a> {
     /// A frame with its map.
     pub fn frame(&self, params: &SkyParams, view: &Camera, seconds: f64) -> Frame<'_> {
         let mut frame = self.frame_without_map(params, view, seconds);
-        frame.map = frame.top_of_map().map(map::with_levels);
+        let tops = frame.top_of_map().into_iter();
+        frame.map = tops.map(map::with_levels).collect();
         frame
     }
 
@@ -94,13 +100,14 @@ impl<'a> Twin<'a> {
 }
 
 impl Frame<'_> {
-    /// Level 0 of the map, not rounded.
-    pub fn top_of_map(&self) -> Option<Image> {
+    /// Level 0 of each layer of the map, not rounded.
+    pub fn top_of_map(&self) -> Vec<Image> {
         let (octaves, fbm) = (&self.uniforms.octaves, &self.uniforms.fbm);
         match self.method {
-            Method::Packed => None,
-            Method::Octaves => Some(octaves_map::render(octaves, &self.states)),
-            Method::Fbm => Some(fbm_map::render(fbm, &self.packed_octaves())),
+            Method::Packed => Vec::new(),
+            Method::Octaves => vec![octaves_map::render(octaves, &self.states)],
+            Method::Fbm => vec![fbm_map::render(fbm, &self.packed_octaves())],
+            Method::Lit => lit_map::render(&self.uniforms.lit, &self.twin.layers),
         }
     }
 
@@ -109,27 +116,51 @@ impl Frame<'_> {
         fbm_pack::packed(self.twin.pack, [x, y])
     }
 
-    /// What a texel of level 0 of the map may be off by in each channel: at most, and on average, in bytes.
-    pub fn map_allowance(&self) -> ([f32; 4], [f32; 4]) {
+    /// What a texel of level 0 of each layer of the map may be off by in each channel: at most, and on average, in bytes.
+    pub fn map_allowance(&self) -> Vec<([f32; 4], [f32; 4])> {
         match self.method {
-            Method::Packed => ([0.0; 4], [0.0; 4]),
-            Method::Octaves => octaves_map::allowance(&self.uniforms.octaves, &self.states),
-            Method::Fbm => fbm_map::allowance(&self.uniforms.fbm, &self.packed_octaves()),
+            Method::Packed => Vec::new(),
+            Method::Octaves => vec![octaves_map::allowance(&self.uniforms.octaves, &self.states)],
+            Method::Fbm => vec![fbm_map::allowance(
+                &self.uniforms.fbm,
+                &self.packed_octaves(),
+            )],
+            Method::Lit => lit_map::allowance(&self.uniforms.lit, &self.twin.layers),
         }
     }
 
-    /// Numbers about the map's channels, put into the order of the layer's reads.
-    pub fn in_order_of_reads(&self, [r, g, b, a]: [f32; 4]) -> [f32; MOST_READS] {
-        match self.method {
-            Method::Packed => [0.0; MOST_READS],
-            Method::Octaves => [g, a, r, b, r],
-            Method::Fbm => [r, a, g, 0.0, 0.0],
-        }
+    /// Numbers about the channels of the map's layers, put into the order of the reads; 0 for what is not read of a map.
+    pub fn in_order_of_reads(&self, layers: &[[f32; 4]]) -> Vec<f32> {
+        let ordered = |[r, g, b, a]: [f32; 4]| match self.method {
+            Method::Packed => Vec::new(),
+            Method::Octaves => vec![g, a, r, b, r],
+            Method::Fbm => vec![r, a, g],
+            Method::Lit => vec![r, b, a],
+        };
+        let mut reads: Vec<f32> = layers.iter().copied().flat_map(ordered).collect();
+        reads.resize(self.nudges.len(), 0.0);
+        reads
+    }
+
+    /// What reads are off by where each texture unit's is by one step of 8-bit filtering.
+    pub fn filter_steps(&self) -> Vec<f32> {
+        vec![FILTER_STEP; self.nudges.len()]
     }
 
     /// Radiance of every pixel, row by row from the top, without the flare.
     pub fn render(&self) -> Vec<Vec3> {
         self.pixels(|pixel| self.pixel(pixel))
+    }
+
+    /// The same without clouds.
+    pub fn behind(&self) -> Vec<Vec3> {
+        self.pixels(|pixel| self.pixel_behind(pixel))
+    }
+
+    /// The clouds of a frame over what is [`Frame::behind`] them.
+    pub fn clouds_over(&self, behind: &[Vec3]) -> Vec<Vec3> {
+        let mut behind = behind.iter();
+        self.pixels(|pixel| self.over(*behind.next().expect("every pixel is there"), pixel))
     }
 
     /// Opacity of the clouds at every pixel, three times.
@@ -148,12 +179,12 @@ impl Frame<'_> {
     /// place of the order of reads: the changes by each read alone, added up.
     pub fn worth_of_reads(
         &mut self,
-        off: [f32; MOST_READS],
+        off: &[f32],
         picture: impl Fn(&Self) -> Vec<Vec3>,
     ) -> Vec<Vec3> {
         let usual = picture(self);
         let mut worth = vec![Vec3::ZERO; usual.len()];
-        for (read, off) in off.into_iter().enumerate().filter(|(_, off)| *off > 0.0) {
+        for (read, &off) in off.iter().enumerate().filter(|(_, off)| **off > 0.0) {
             let changed = [-off, off].map(|nudge| {
                 self.nudges[read] = nudge;
                 picture(self)
@@ -173,7 +204,17 @@ impl Frame<'_> {
         self.pixels(|pixel| clear * flares::light(&self.inputs(), &self.twin.flares, pixel))
     }
 
-    fn pixels(&self, colour: impl Fn(Vec2) -> Vec3) -> Vec<Vec3> {
+    /// What an overlay of this colour and opacity makes of a picture.
+    pub fn under(&self, picture: &[Vec3], overlay: impl Fn(Vec3) -> (Vec3, f32)) -> Vec<Vec3> {
+        let mut behind = picture.iter();
+        self.pixels(|pixel| {
+            let behind = behind.next().expect("every pixel is there");
+            let (colour, opacity) = overlay(camera::ray_of(&self.uniforms.camera, pixel));
+            behind.lerp(colour, opacity)
+        })
+    }
+
+    fn pixels(&self, colour: impl FnMut(Vec2) -> Vec3) -> Vec<Vec3> {
         let camera = &self.uniforms.camera;
         let (width, height) = (camera.right[3] as u32, camera.up[3] as u32);
         let centres = (0..height)
@@ -186,20 +227,26 @@ impl Frame<'_> {
         clouds::layer(self.method, &self.inputs(), direction, 1.0 / ray_length)
     }
 
-    fn inputs(&self) -> Inputs<'_> {
+    /// What its clouds are computed from.
+    pub fn inputs(&self) -> Inputs<'_> {
         Inputs {
             uniforms: &self.uniforms,
             clouds: &self.twin.clouds,
-            map: self.map.as_ref(),
-            nudges: self.nudges,
+            map: &self.map,
+            layers: &self.twin.layers,
+            nudges: &self.nudges,
         }
     }
 
     /// Radiance of one pixel.
     pub fn pixel(&self, pixel: Vec2) -> Vec3 {
+        self.over(self.pixel_behind(pixel), pixel)
+    }
+
+    /// Radiance of one pixel behind the clouds.
+    fn pixel_behind(&self, pixel: Vec2) -> Vec3 {
         let (twin, uniforms) = (self.twin, &self.uniforms);
-        let ray = camera::ray_of(&uniforms.camera, pixel);
-        let direction = ray / ray.length();
+        let direction = camera::ray_of(&uniforms.camera, pixel).normalize();
         let mut radiance = sky::radiance(uniforms, &twin.sky, direction);
         if uniforms.sky.gradient[3] > 0.0 && direction.y > 0.0 {
             let galaxy =
@@ -213,10 +260,17 @@ impl Frame<'_> {
         if let Some(skybox) = &twin.skybox {
             radiance = skybox::mix(&uniforms.skybox, skybox, radiance, direction);
         }
-        if direction.y > 0.0 {
-            let (cloud, alpha) = self.clouds(direction, ray.length());
-            radiance = radiance.lerp(cloud, alpha);
-        }
         radiance
+    }
+
+    /// The clouds of one pixel over what is behind them.
+    fn over(&self, behind: Vec3, pixel: Vec2) -> Vec3 {
+        let ray = camera::ray_of(&self.uniforms.camera, pixel);
+        let direction = ray / ray.length();
+        if direction.y <= 0.0 {
+            return behind;
+        }
+        let (cloud, alpha) = self.clouds(direction, ray.length());
+        behind.lerp(cloud, alpha) + lightning::light(&self.uniforms, direction, cloud, alpha)
     }
 }

@@ -12,7 +12,7 @@ pub fn radiance(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3
     let sun = &uniforms.sun;
     let place = [direction.dot(xyz(sun.right)), -direction.dot(xyz(sun.up))];
     let inside = |place: [f32; 2]| place[0].abs().max(place[1].abs()) < 1.0;
-    if sun.up[3] == 0.0 || direction.dot(xyz(uniforms.sky.sun)) <= 0.0 || !inside(place) {
+    if sun.up[3] == 0.0 || direction.dot(xyz(sun.towards)) <= 0.0 || !inside(place) {
         return Vec3::ZERO;
     }
     let uv = |place: [f32; 2]| place.map(|p| 0.5 + 0.5 * p);

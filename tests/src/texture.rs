@@ -7,6 +7,8 @@ use welkin_pack::{Image, Pack, Role};
 #[derive(Clone, Debug)]
 pub struct Texture {
     levels: Vec<Image>,
+    /// The texels of each level; missing channels are 0.
+    texels: Vec<Vec<[f32; 4]>>,
     wrap: Wrap,
 }
 
@@ -33,7 +35,16 @@ impl Texture {
 
     /// A texture of these levels, largest first.
     pub fn from_levels(levels: Vec<Image>, wrap: Wrap) -> Texture {
-        Texture { levels, wrap }
+        let texels = levels.iter().map(|image| {
+            let four = |texel: &[f32]| [0, 1, 2, 3].map(|i| texel.get(i).copied().unwrap_or(0.0));
+            let each = image.texels.chunks_exact(image.channels as usize);
+            each.map(four).collect()
+        });
+        Texture {
+            texels: texels.collect(),
+            levels,
+            wrap,
+        }
     }
 
     /// Its levels, largest first.
@@ -42,16 +53,18 @@ impl Texture {
     }
 
     /// One texel as it is; missing channels are 0.
-    pub fn load(&self, texel: [i32; 2], level: usize) -> [f32; 4] {
+    pub fn load(&self, [x, y]: [i32; 2], level: usize) -> [f32; 4] {
         let image = &self.levels[level];
-        let place = |i: i32, size: u32| match self.wrap {
+        let [x, y] = [self.place(x, image.width), self.place(y, image.height)];
+        self.texels[level][(y * image.width + x) as usize]
+    }
+
+    /// Where a texel beyond the sides is read.
+    fn place(&self, i: i32, size: u32) -> u32 {
+        match self.wrap {
             Wrap::Repeat => i.rem_euclid(size as i32) as u32,
             Wrap::Clamp => i.clamp(0, size as i32 - 1) as u32,
-        };
-        let mut out = [0.0; 4];
-        let texel = image.texel(place(texel[0], image.width), place(texel[1], image.height));
-        out[..texel.len()].copy_from_slice(texel);
-        out
+        }
     }
 
     /// Trilinear filtering at a level of detail, which is clamped to the levels there are.
@@ -59,6 +72,9 @@ impl Texture {
         let last = self.levels.len() - 1;
         let level = level.clamp(0.0, last as f32);
         let (fine, share) = (level as usize, level - level.floor());
+        if share == 0.0 {
+            return self.bilinear(uv, fine);
+        }
         mix(
             self.bilinear(uv, fine),
             self.bilinear(uv, (fine + 1).min(last)),
@@ -73,11 +89,14 @@ impl Texture {
             uv[1] * image.height as f32 - 0.5,
         );
         let (left, top) = (x.floor(), y.floor());
-        let row = |dy: i32| {
-            let at = |dx: i32| self.load([left as i32 + dx, top as i32 + dy], level);
-            mix(at(0), at(1), x - left)
-        };
-        mix(row(0), row(1), y - top)
+        let near = |first: f32, size: u32| [0, 1].map(|d| self.place(first as i32 + d, size));
+        let (columns, rows) = (near(left, image.width), near(top, image.height));
+        let [upper, lower] = rows.map(|row| {
+            let at = |column: u32| self.texels[level][(row * image.width + column) as usize];
+            let [left_texel, right_texel] = columns.map(at);
+            mix(left_texel, right_texel, x - left)
+        });
+        mix(upper, lower, y - top)
     }
 }
 

@@ -105,6 +105,32 @@ fn fbm_covers_what_cover_says() {
     }
 }
 
+#[test]
+fn lit_covers_what_cover_says() {
+    let params = SkyParams {
+        method: Method::Lit,
+        speed: 0.0,
+        ..SkyParams::default()
+    };
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    // Two intervals apart, as the others' are.
+    let every_s = 2.0 * f64::from(params.lit.formation_interval_s);
+    let maps: Vec<_> = (0..16)
+        .map(|i| map(&mut sky, &params, every_s * f64::from(i), 1))
+        .collect();
+    for cover in [0.1_f32, 0.25, 0.5, 0.75, 0.9] {
+        let mean = maps.iter().map(|map| share(map, 1.0 - cover)).sum::<f32>() / maps.len() as f32;
+        println!("cover {cover}: {mean:.4} of the map");
+        // Each read alone is even exactly; how they lie over each other is chance. Lumps of stratocumulus are a twelfth of
+        // the tile: five deviations of the mean of 16 maps. Half a byte is 0.002.
+        let bound = 5.0 * (cover * (1.0 - cover) / (16.0 * 144.0)).sqrt() + 0.002;
+        assert!(
+            (mean - cover).abs() < bound,
+            "cover {cover}: {mean}, within {bound}"
+        );
+    }
+}
+
 /// Mean energy of the wave vectors (k, j) of square images, k from 0 to half the side.
 fn energies(maps: &[Vec<f32>], side: usize, j: i32) -> Vec<f64> {
     let turn = |k: f64, x: usize| (-std::f64::consts::TAU * k * x as f64 / side as f64).sin_cos();

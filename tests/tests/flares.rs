@@ -7,7 +7,7 @@ use welkin_runtime::flares::RATIOS;
 use welkin_runtime::uniforms::FlareUniforms;
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::film::Film;
-use welkin_tests::renderer::{FILTER_STEP, Frame, Twin};
+use welkin_tests::renderer::{Frame, Twin};
 use welkin_tests::{compare, gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -170,7 +170,7 @@ fn the_flare_is_the_twins() {
             let mut frame = twin.frame_without_map(&params, &view, seconds);
             frame.map = gpu::read_map(&sky);
             let expected = frame.flare();
-            let worth = frame.worth_of_reads(FILTER_STEP, Frame::flare);
+            let worth = frame.worth_of_reads(&frame.filter_steps(), Frame::flare);
             // Six reads of the atlas, each off by a step of 8-bit filtering, of at most 0.6 opacity in all; two half floats.
             let bound = |(pixel, worth): (usize, &Vec3)| match on_an_edge(
                 &frame.uniforms.flares,

@@ -1,11 +1,14 @@
 //! What changes a map beside its motion, new states of octaves and a sun that moves on, never makes it jump.
 
+use welkin_pack::LayerKind;
 use welkin_runtime::fbm_pack::SHADE_BYTES;
 use welkin_runtime::frame::Facts;
+use welkin_runtime::lit_map::WEIGHTS;
 use welkin_runtime::octaves_map::NOISE_SIDE;
-use welkin_runtime::{Camera, Method, OctaveParams, Sky, SkyParams};
+use welkin_runtime::{Camera, LitLayer, LitParams, Method, Sky, SkyParams};
+use welkin_tests::lit_map::even;
 use welkin_tests::octaves_map::{most_change, most_change_of_amount};
-use welkin_tests::{gpu, pack};
+use welkin_tests::{gpu, lit_map, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
@@ -101,36 +104,171 @@ fn the_map_of_octaves_changes_by_what_its_states_do() {
     }
 }
 
+fn layer(kind: LayerKind) -> SkyParams {
+    SkyParams {
+        method: Method::Lit,
+        speed: 0.0,
+        lit: LitParams::with_layers(&[LitLayer::of(kind, 1.0)]),
+        ..SkyParams::default()
+    }
+}
+
+/// Channels of the map: amount of cloud, opacity, shade.
+const LIT_CHANNELS: [usize; 3] = [1, 2, 3];
+
+#[test]
+fn the_map_of_layers_changes_by_what_its_second_read_does() {
+    let (facts, kinds) = (facts(), lit_map::kinds(pack::default_pack()));
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    for kind in LayerKind::ALL {
+        let params = layer(kind);
+        for seconds in [0.0, 100.0, 239.99, 1e6] {
+            let moments = [seconds, seconds + FRAME_S];
+            let [from, to] = moments.map(|t| facts.uniforms(&params, &view(), t, 0.0).lit);
+            let most = lit_map::most_change(&from, &to, &kinds)[0];
+            let [before, after] = moments.map(|t| {
+                gpu::prepare(&mut sky, &params, &view(), t);
+                LIT_CHANNELS.map(|channel| bytes(&sky, channel))
+            });
+            for (i, channel) in LIT_CHANNELS.into_iter().enumerate() {
+                // Both maps are rounded to the nearest byte.
+                let bound = (most[channel] * 255.0).ceil();
+                let change = farthest(&before[i], &after[i]).round();
+                println!("{kind:?} at {seconds} s, channel {channel}: {change} bytes of {bound}");
+                assert!(
+                    change <= bound,
+                    "{kind:?} at {seconds} s, channel {channel}: {change} bytes, at most {bound}"
+                );
+            }
+        }
+    }
+}
+
+fn correlation(a: &[f32], b: &[f32]) -> f32 {
+    let mean = |v: &[f32]| v.iter().sum::<f32>() / v.len() as f32;
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    let product = |a: &[f32], mean_a: f32, b: &[f32], mean_b: f32| -> f32 {
+        let pairs = a.iter().zip(b);
+        pairs.map(|(a, b)| (a - mean_a) * (b - mean_b)).sum()
+    };
+    let squares = product(a, mean_a, a, mean_a) * product(b, mean_b, b, mean_b);
+    product(a, mean_a, b, mean_b) / squares.sqrt()
+}
+
+/// Places of a tile that have nothing to do with each other: lumps of stratocumulus are a twelfth of the tile.
+const PLACES: f32 = 144.0;
+
+/// In still air: what was cloud dissolves, as much forms elsewhere.
+#[test]
+fn layers_form_and_dissolve_where_they_stand() {
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    let cover = 0.3;
+    let params = SkyParams {
+        cover,
+        ..layer(LayerKind::Stratocumulus)
+    };
+    let interval_s = f64::from(params.lit.formation_interval_s);
+    let mut amounts = |intervals: f64| {
+        gpu::prepare(&mut sky, &params, &view(), intervals * interval_s);
+        bytes(&sky, 1)
+    };
+    let start = amounts(0.0);
+    let mut last = 1.0;
+    for intervals in [0.1, 0.3, 1.0] {
+        let now = correlation(&start, &amounts(intervals));
+        println!("after {intervals} intervals: {now:.3}");
+        assert!(
+            now < last,
+            "after {intervals} intervals: {now}, {last} before"
+        );
+        last = now;
+    }
+    // The second read then has nothing to do with what it was: of the variances the first's is left. Two fields correlate by chance
+    // by 1 / sqrt n, and the blends by (2 a b + b^2) / (a^2 + b^2) of that.
+    let [a, b] = WEIGHTS;
+    let both = a * a + b * b;
+    let (mut correlations, mut shares, mut dissolved) = (0.0, 0.0, 0.0);
+    let count = 8;
+    for i in 1..=count {
+        let now = amounts(2.0 * f64::from(i));
+        let cloud = |amount: f32| amount > 255.0 * (1.0 - cover);
+        let pairs = start.iter().zip(&now);
+        let gone = pairs.filter(|(a, b)| cloud(**a) && !cloud(**b)).count() as f32;
+        shares += now.iter().filter(|a| cloud(**a)).count() as f32 / now.len() as f32;
+        dissolved += gone / now.len() as f32 / cover;
+        correlations += correlation(&start, &now);
+    }
+    let mean = |sum: f32| sum / count as f32;
+    let chance = 5.0 / (PLACES * count as f32).sqrt();
+    let (correlation, share, dissolved) = (mean(correlations), mean(shares), mean(dissolved));
+    println!(
+        "later: correlation {correlation:.3}, share {share:.3}, {dissolved:.3} of it dissolved"
+    );
+    let bound = chance * (2.0 * a * b + b * b) / both;
+    assert!((correlation - a * a / both).abs() < bound, "{correlation}");
+    assert!(
+        (share - cover).abs() < chance * (cover * (1.0 - cover)).sqrt(),
+        "{share}"
+    );
+}
+
 /// Mean distance of two maps, in bytes.
 fn mean_apart(a: &[f32], b: &[f32]) -> f32 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f32>() / a.len() as f32
+}
+
+/// What two blends of even numbers are apart on average if only the smaller part of them is another, in bytes.
+fn lit_apart() -> f32 {
+    let count = 40;
+    let place = |i: usize| (i as f32 + 0.5) / count as f32;
+    let [larger, smaller] = WEIGHTS;
+    let blend = |i: usize, j: usize| even(larger * place(i) + smaller * place(j));
+    let triples =
+        (0..count * count * count).map(|i| [i % count, i / count % count, i / count / count]);
+    let apart =
+        triples.map(|[first, before, after]| (blend(first, before) - blend(first, after)).abs());
+    255.0 * apart.sum::<f32>() / (count * count * count) as f32
 }
 
 /// The other way round: a minute is another sky, a day long interval hardly another one.
 #[test]
 fn the_formation_interval_says_how_fast() {
     let mut sky = gpu::sky(pack::default_pack(), FORMAT);
-    let mut apart = |formation_interval_s: f32| {
-        let octaves = OctaveParams {
-            formation_interval_s,
-            ..OctaveParams::default()
-        };
-        let params = SkyParams {
-            method: Method::Octaves,
-            octaves,
-            ..SkyParams::default()
-        };
+    let mut apart = |params: &SkyParams, channel: usize| {
         let [a, b] = [10.0, 70.0].map(|seconds| {
-            gpu::prepare(&mut sky, &params, &view(), seconds);
-            bytes(&sky, 0)
+            gpu::prepare(&mut sky, params, &view(), seconds);
+            bytes(&sky, channel)
         });
         mean_apart(&a, &b)
     };
+    let mut octaves = |formation_interval_s: f32| {
+        let mut params = octaves();
+        params.octaves.formation_interval_s = formation_interval_s;
+        apart(&params, 0)
+    };
     // After three intervals states are independent: two numbers, evenly distributed over 255 bytes, are 85 apart on
     // average. A map has some 235 independent places (see cover.rs), so 15 is three deviations of 60 / sqrt 235 and more.
-    let (fast, slow) = (apart(20.0), apart(86_400.0));
-    println!("a minute changes the map by {fast:.1} bytes, with a day long interval by {slow:.2}");
+    let (fast, slow) = (octaves(20.0), octaves(86_400.0));
+    println!(
+        "a minute changes the octaves by {fast:.1} bytes, with a day long interval by {slow:.2}"
+    );
     assert!((70.0..100.0).contains(&fast), "{fast}");
+    assert!(slow < 1.0, "{slow}");
+    let mut lit = |formation_interval_s: f32| {
+        let mut params = layer(LayerKind::Stratocumulus);
+        params.lit.formation_interval_s = formation_interval_s;
+        apart(&params, 1)
+    };
+    let (fast, slow, expected) = (lit(20.0), lit(86_400.0), lit_apart());
+    println!(
+        "the layers by {fast:.1} bytes of {expected:.1}, with a day long interval by {slow:.2}"
+    );
+    // Distances that spread as much as they are, at so many places.
+    let bound = 3.0 * expected / PLACES.sqrt();
+    assert!(
+        (fast - expected).abs() < bound,
+        "{fast}, expected {expected}"
+    );
     assert!(slow < 1.0, "{slow}");
 }
 

@@ -1,12 +1,12 @@
 //! Clouds change their shapes, and never jump.
 
+use glam::Vec3Swizzles;
 use welkin_runtime::frame::Facts;
 use welkin_runtime::uniforms::Uniforms;
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
-use welkin_tests::clouds::MOST_READS;
 use welkin_tests::film::Film;
-use welkin_tests::renderer::{FILTER_STEP, Frame, Twin};
-use welkin_tests::{camera, dome, gpu, octaves_map, pack};
+use welkin_tests::renderer::{Frame, Twin};
+use welkin_tests::{camera, dome, gpu, lit, lit_map, octaves_map, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 const SIZE: [u32; 2] = [96, 72];
@@ -58,7 +58,7 @@ fn frames_a_minute_apart_are_different_skies() {
 /// A channel of a level of the map, with its side.
 fn map_channel(sky: &Sky, level: u32, channel: usize) -> (Vec<f32>, usize) {
     let map = sky.cloud_map().expect("the method has a map");
-    let texels = gpu::read_level(map, level);
+    let texels = gpu::read_level(map, level, 0);
     let values = texels.iter().map(|texel| texel[channel]).collect();
     (values, (map.width() >> level) as usize)
 }
@@ -91,13 +91,18 @@ fn best_correlation(skies: [&Sky; 2], channel: usize) -> f64 {
     best(256, &mut fine).0
 }
 
-/// With the scrolling taken out there is still change: the maps do not merely move.
+/// With the scrolling taken out there is still change within an interval: the maps do not merely move.
 #[test]
 fn shapes_change_however_the_map_is_shifted() {
-    for (method, channel) in [(Method::Octaves, 1), (Method::Fbm, 3)] {
+    let lit_s = f64::from(SkyParams::default().lit.formation_interval_s);
+    for (method, channel, interval_s) in [
+        (Method::Octaves, 1, 60.0),
+        (Method::Fbm, 3, 60.0),
+        (Method::Lit, 2, lit_s),
+    ] {
         let mut skies = [0, 1].map(|_| gpu::sky(pack::default_pack(), FORMAT));
         for start in [0.0, 190.0, 380.0] {
-            for (sky, seconds) in skies.iter_mut().zip([start, start + 60.0]) {
+            for (sky, seconds) in skies.iter_mut().zip([start, start + interval_s]) {
                 gpu::prepare(sky, &params(method), &view(), seconds);
             }
             let found = best_correlation([&skies[0], &skies[1]], channel);
@@ -108,6 +113,43 @@ fn shapes_change_however_the_map_is_shifted() {
             assert!(found < 0.9, "{} from {start} s: {found}", method.name());
         }
     }
+}
+
+/// Offsets that go on with the wind and are kept within a tile, of textures that are read a second time at another scale.
+fn offsets(method: Method, uniforms: &Uniforms) -> Vec<f32> {
+    match method {
+        Method::Packed => [&uniforms.packed.photo[1..3], &uniforms.packed.noise[2..]].concat(),
+        Method::Octaves => uniforms.octaves.low.place[..2].to_vec(),
+        Method::Fbm => uniforms.fbm.offsets_a.to_vec(),
+        Method::Lit => uniforms.lit.layers[0].place[..2].to_vec(),
+    }
+}
+
+/// The first moments at which an offset is taken back by a tile.
+fn wraps(facts: &Facts, params: &SkyParams) -> Vec<f64> {
+    let at = |seconds: f64| {
+        let uniforms = facts.uniforms(params, &view(), seconds, 0.0);
+        offsets(params.method, &uniforms)
+    };
+    let wrap = |index: usize| {
+        let jumps = |from: f64, to: f64| (at(to)[index] - at(from)[index]).abs() > 0.5;
+        let step = 2.0;
+        let from = (0..500)
+            .map(|i| f64::from(i) * step)
+            .find(|t| jumps(*t, t + step))?;
+        let halved = |[low, high]: [f64; 2]| {
+            let middle = 0.5 * (low + high);
+            if jumps(low, middle) {
+                [low, middle]
+            } else {
+                [middle, high]
+            }
+        };
+        let [low, high] = (0..20).fold([from, from + step], |bounds, _| halved(bounds));
+        Some(0.5 * (low + high))
+    };
+    let count = at(0.0).len();
+    (0..count).filter_map(wrap).collect()
 }
 
 /// The farthest that anything in the layer moves from one moment to another, in heights of the layer.
@@ -150,14 +192,25 @@ fn way(method: Method, from: &Uniforms, to: &Uniforms) -> f32 {
                 .zip(after.as_flattened().chunks(2));
             pairs.map(|(a, b)| apart(a, b)).fold(0.0, f32::max) / tiles_a_height
         }
+        Method::Lit => {
+            let pairs = from.lit.layers.iter().zip(&to.lit.layers);
+            let layers = pairs.take(from.lit.dome[2] as usize);
+            layers
+                .map(|(a, b)| apart(&a.place, &b.place) / a.axes[0].hypot(a.axes[1]))
+                .fold(0.0, f32::max)
+        }
     }
 }
 
 /// The least distance of two neighbouring pixels on the layer, in its heights.
-fn finest_pixel(uniforms: &Uniforms) -> f32 {
+fn finest_pixel(method: Method, uniforms: &Uniforms) -> f32 {
     let plane = |x: u32, y: u32| {
         let pixel = glam::Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
-        dome::intersect(camera::ray_of(&uniforms.camera, pixel).normalize()).plane
+        let direction = camera::ray_of(&uniforms.camera, pixel).normalize();
+        match method {
+            Method::Lit => direction.xz() * lit::distance(&uniforms.lit, direction),
+            _ => dome::intersect(direction).plane,
+        }
     };
     let [width, height] = SIZE;
     (1..height)
@@ -180,29 +233,40 @@ fn steepest(alpha: &[f32]) -> f32 {
 }
 
 /// What reads may change by from one frame to the next beside their motion: two steps of 8-bit filtering, which may be
-/// off one way in one frame and the other way in the next, and what octaves form anew.
-fn change_of_reads(
-    facts: &Facts,
-    params: &SkyParams,
-    frame: &Frame,
-    seconds: f64,
-) -> [f32; MOST_READS] {
-    let filter = FILTER_STEP.map(|step| 2.0 * step);
-    if params.method != Method::Octaves {
-        return filter;
-    }
-    let share = FRAME_S as f32 / params.octaves.formation_interval_s;
-    let amount = octaves_map::most_change_of_amount(&facts.octave_states(params, seconds), share);
-    let channels = octaves_map::slopes(&frame.uniforms.octaves).map(|slope| slope * amount);
-    let formed = frame.in_order_of_reads(channels);
-    std::array::from_fn(|read| filter[read] + formed[read])
+/// off one way in one frame and the other way in the next, and what octaves and layers form anew.
+fn change_of_reads(facts: &Facts, params: &SkyParams, frame: &Frame, seconds: f64) -> Vec<f32> {
+    let formed = match params.method {
+        Method::Packed | Method::Fbm => Vec::new(),
+        Method::Octaves => {
+            let share = FRAME_S as f32 / params.octaves.formation_interval_s;
+            let states = facts.octave_states(params, seconds);
+            let amount = octaves_map::most_change_of_amount(&states, share);
+            vec![octaves_map::slopes(&frame.uniforms.octaves).map(|slope| slope * amount)]
+        }
+        Method::Lit => lit_formed(facts, params, frame, seconds),
+    };
+    let formed = frame.in_order_of_reads(&formed);
+    let steps = frame.filter_steps();
+    let pairs = formed.iter().zip(&steps);
+    pairs.map(|(formed, step)| 2.0 * step + formed).collect()
+}
+
+/// By how much the channels of each layer of the map may change: the second read goes on.
+fn lit_formed(facts: &Facts, params: &SkyParams, frame: &Frame, seconds: f64) -> Vec<[f32; 4]> {
+    let after = facts.uniforms(params, &view(), seconds + FRAME_S, 0.0).lit;
+    lit_map::most_change(
+        &frame.uniforms.lit,
+        &after,
+        &lit_map::kinds(pack::default_pack()),
+    )
 }
 
 /// No pixel changes by more from frame to frame than what moves over it and forms in it.
 ///
 /// That is the steepest slope of the picture times the way in pixels: twice, since a pixel's difference is the mean of a
 /// slope that may be all in half of it, and octaves that move apart may add their slopes. And what a change of each read
-/// is worth in opacity. Two of the moments are the ends of intervals of the first two octaves.
+/// is worth in opacity. Some of the moments are the ends of intervals of the first two octaves, others those at which
+/// offsets are taken back by a tile.
 #[test]
 fn nothing_jumps_from_frame_to_frame() {
     let facts = Facts::new(pack::default_pack()).expect("the pack has every role");
@@ -213,15 +277,22 @@ fn nothing_jumps_from_frame_to_frame() {
                 speed,
                 ..params(method)
             };
-            for seconds in [0.0, 60.0 - FRAME_S / 2.0, 22.918 - FRAME_S / 2.0, 1e5] {
+            let mut ends = vec![0.0, 1e5];
+            match speed {
+                1.0 => ends.extend(wraps(&facts, &params)),
+                _ if method == Method::Octaves => ends.extend([60.0, 22.918]),
+                _ => {}
+            }
+            for seconds in ends.into_iter().map(|end| end - FRAME_S / 2.0) {
                 let uniforms =
                     [seconds, seconds + FRAME_S].map(|t| facts.uniforms(&params, &view(), t, 0.0));
-                let pixels = way(method, &uniforms[0], &uniforms[1]) / finest_pixel(&uniforms[0]);
+                let pixels =
+                    way(method, &uniforms[0], &uniforms[1]) / finest_pixel(method, &uniforms[0]);
                 let [before, after] =
                     [seconds, seconds + FRAME_S].map(|t| film.alpha(&params, &view(), t));
                 let mut frame = twin.frame(&params, &view(), seconds);
                 let reads = change_of_reads(&facts, &params, &frame, seconds);
-                let reads = frame.worth_of_reads(reads, Frame::opacity);
+                let reads = frame.worth_of_reads(&reads, Frame::opacity);
                 let moved = 2.0 * steepest(&before) * pixels;
                 let case = format!("{} at speed {speed}, {seconds} s", method.name());
                 let mut closest = 0.0_f32;

@@ -1,4 +1,5 @@
-//! Golden pictures: each method at noon, at sunset and in a storm, as the software driver drew them.
+//! Golden pictures: each method at noon, at sunset and in a storm or, where it has a moon, by night, as the software driver drew
+//! them.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -37,10 +38,18 @@ fn pictures(method: Method) -> [(String, SkyParams, Camera); 3] {
         Camera::looking(azimuth.to_radians(), elevation.to_radians(), 1.05, SIZE)
     };
     let name = |name: &str| format!("{}-{name}", method.name());
+    let moonlit = SkyParams {
+        time: 0.93,
+        ..usual
+    };
+    let last = match method {
+        Method::Lit => (name("moonlit"), moonlit, view(120.0, 30.0)),
+        _ => (name("storm"), storm, view(160.0, 25.0)),
+    };
     [
         (name("noon"), usual, view(90.0, 28.0)),
         (name("sunset"), sunset, view(270.0, 20.0)),
-        (name("storm"), storm, view(160.0, 25.0)),
+        last,
     ]
 }
 
@@ -88,9 +97,14 @@ fn allowed(twin: &Twin, params: &SkyParams, view: &Camera) -> Vec<Vec3> {
         return vec![Vec3::splat(2.0 * step); (width * height) as usize];
     }
     let mut frame = twin.frame(params, view, SECONDS);
-    let (_, mean) = frame.map_allowance();
-    let map = frame.in_order_of_reads(mean);
-    let worth = frame.worth_of_reads(map.map(|mean| (2.0 + 4.0 * mean) * step), Frame::render);
+    let mean: Vec<_> = frame
+        .map_allowance()
+        .iter()
+        .map(|(_, mean)| *mean)
+        .collect();
+    let map = frame.in_order_of_reads(&mean).into_iter();
+    let off: Vec<f32> = map.map(|mean| (2.0 + 4.0 * mean) * step).collect();
+    let worth = frame.worth_of_reads(&off, Frame::render);
     let bytes = |radiance: Vec3| tonemap::to_bytes(radiance, 1.0) / 255.0;
     let bound = |(&here, &worth): (&Vec3, &Vec3)| {
         let may = worth + 0.01 * here;

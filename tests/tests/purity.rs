@@ -1,6 +1,7 @@
 //! A frame is a pure function of pack, parameters, camera and seconds.
 
-use welkin_runtime::{Camera, Method, OctaveParams, Sky, SkyModel, SkyParams};
+use welkin_pack::LayerKind;
+use welkin_runtime::{Camera, LitLayer, LitParams, Method, OctaveParams, Sky, SkyModel, SkyParams};
 use welkin_tests::{gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -124,6 +125,26 @@ fn another_count_of_octaves_and_back_is_the_same_sky() {
 }
 
 #[test]
+fn other_layers_and_back_are_the_same_sky() {
+    let with = |sky: &mut Sky, count: usize| {
+        let layers = LayerKind::ALL.repeat(2);
+        let layers: Vec<_> = layers.iter().map(|kind| LitLayer::of(*kind, 0.5)).collect();
+        let params = SkyParams {
+            lit: LitParams::with_layers(&layers[..count]),
+            ..params(Method::Lit, 20.0)
+        };
+        gpu::render(sky, FORMAT, &params, &view(20.0), 20.0)
+    };
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    let two = with(&mut sky, 2);
+    let six = with(&mut sky, 6);
+    assert_ne!(two, six);
+    assert_same(&with(&mut sky, 2), &two, "two layers after six");
+    let mut new = gpu::sky(pack::default_pack(), FORMAT);
+    assert_same(&with(&mut new, 6), &six, "six layers at once");
+}
+
+#[test]
 fn what_another_method_is_told_changes_nothing() {
     let mut sky = gpu::sky(pack::default_pack(), FORMAT);
     for method in Method::ALL {
@@ -138,6 +159,11 @@ fn what_another_method_is_told_changes_nothing() {
         }
         if method != Method::Packed {
             other.upper_layer = 1.0;
+        }
+        if method != Method::Lit {
+            let layers = [LitLayer::of(LayerKind::Cirrus, 1.0)];
+            other.lit = LitParams::with_layers(&layers);
+            other.lit.moon = 0.0;
         }
         let [a, b] = [usual, other].map(|p| gpu::render(&mut sky, FORMAT, &p, &view(1.0), 1.0));
         assert_same(&a, &b, method.name());

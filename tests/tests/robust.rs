@@ -1,8 +1,9 @@
 //! No parameter, camera, sun or time makes a pixel that is not a finite, positive amount of light.
 
-use welkin_pack::Pack;
+use welkin_pack::{LayerKind, Pack, mapping};
 use welkin_runtime::{
-    Camera, FbmParams, Method, OctaveParams, PerezParams, PerezShape, SkyModel, SkyParams,
+    Camera, FbmParams, Lightning, LitLayer, LitParams, Method, OctaveParams, PerezParams,
+    PerezShape, SkyModel, SkyParams, WeatherParams,
 };
 use welkin_tests::{gpu, pack};
 
@@ -108,11 +109,201 @@ fn all(method: Method, number: f32) -> SkyParams {
             lit: [number; 3],
             shaded: [number; 3],
         },
+        lit: LitParams {
+            radius_m: number,
+            flattening: number,
+            layers: [0, 1, 2, 0, 1, 2].map(|kind| layer(LayerKind::ALL[kind], number)),
+            k1: number,
+            k2: number,
+            m: number,
+            formation_interval_s: number,
+            moon: number,
+        },
+        weather: WeatherParams {
+            rays: number,
+            rain: number,
+            lightning: Lightning {
+                strength: number,
+                start_s: number.into(),
+                place_m: [number; 2],
+            },
+        },
+        shadow_extent_m: number,
         sun: true,
         stars: true,
         flare: number,
         skybox: number,
     }
+}
+
+fn layer(kind: LayerKind, number: f32) -> LitLayer {
+    LitLayer {
+        kind,
+        share: number,
+        height: number,
+        velocity_m_s: [number; 2],
+    }
+}
+
+/// Each number of the lit method at its ends and beyond them, all else as it is.
+fn lit_extremes() -> Vec<SkyParams> {
+    let day = SkyParams {
+        method: Method::Lit,
+        ..SkyParams::default()
+    };
+    let with = |change: &dyn Fn(&mut LitParams)| {
+        let mut params = day;
+        change(&mut params.lit);
+        params
+    };
+    let shares = |share: f32| {
+        with(&|lit| {
+            for layer in &mut lit.layers {
+                layer.share = share;
+            }
+        })
+    };
+    let mut cases = vec![
+        shares(0.0),
+        shares(1e-30),
+        shares(1.0),
+        with(&|lit| (lit.k1, lit.k2) = (0.0, 0.0)),
+        with(&|lit| (lit.k1, lit.k2, lit.m) = (0.0, 1.0, 0.5)),
+        with(&|lit| (lit.k1, lit.k2, lit.m) = (1.0, 1.0, 16.0)),
+        with(&|lit| (lit.k1, lit.k2, lit.m) = (0.0, 1.0, 16.0)),
+        with(&|lit| (lit.flattening, lit.radius_m) = (0.02, 1e3)),
+        with(&|lit| (lit.flattening, lit.radius_m) = (1.0, 1e6)),
+    ];
+    for wild in [f32::NAN, f32::INFINITY, -1.0, 0.0] {
+        cases.extend([
+            with(&|lit| lit.radius_m = wild),
+            with(&|lit| lit.flattening = wild),
+            with(&|lit| lit.formation_interval_s = wild),
+            with(&|lit| lit.layers[0].height = wild),
+            with(&|lit| lit.layers[2].velocity_m_s = [wild, -wild]),
+        ]);
+    }
+    let covers = [0.0, 1e-6, 0.05, 0.95, 1.0].map(|cover| SkyParams { cover, ..day });
+    cases.extend(covers);
+    cases
+}
+
+#[test]
+fn with_every_dome_layer_and_light_of_the_lit_method() {
+    let mut cases = Vec::new();
+    for params in lit_extremes() {
+        assert_eq!(params.clamped().check(), Ok(()));
+        for time in [0.0, 0.252, 0.5] {
+            let params = SkyParams { time, ..params };
+            let level = Camera::looking(1.0, 0.3, 1.5, SIZE);
+            cases.push((params, level, 3.0));
+            // The sun or the moon in the middle of the picture.
+            let sun = mapping::sun_direction(time, noon_elevation_rad());
+            let towards = if time == 0.0 { sun.map(|c| -c) } else { sun };
+            let (azimuth, elevation) = mapping::angles_from_direction(towards);
+            let view = Camera::looking(azimuth, elevation, 0.5, SIZE);
+            cases.push((params, view, 1e6));
+        }
+    }
+    assert_light(pack::default_pack(), &cases);
+}
+
+/// A parameter's key, and values of it that are out of its range.
+type Refused = (&'static str, fn(&mut SkyParams, f32), Vec<f32>);
+
+#[test]
+fn settings_out_of_range_are_told_by_their_names() {
+    let cases: [Refused; 19] = [
+        (
+            "lit.radius_m",
+            |p, v| p.lit.radius_m = v,
+            vec![999.0, 1.1e6],
+        ),
+        (
+            "lit.flattening",
+            |p, v| p.lit.flattening = v,
+            vec![0.0, 0.019, 1.01],
+        ),
+        ("lit.k1", |p, v| p.lit.k1 = v, vec![-0.01, 1.01]),
+        ("lit.k2", |p, v| p.lit.k2 = v, vec![-0.01, 1.01]),
+        ("lit.m", |p, v| p.lit.m = v, vec![0.0, 0.49, 16.1]),
+        (
+            "lit.formation_interval_s",
+            |p, v| p.lit.formation_interval_s = v,
+            vec![0.0, 86_401.0],
+        ),
+        ("lit.moon", |p, v| p.lit.moon = v, vec![-0.1, 1.1]),
+        (
+            "lit.layers[0].share",
+            |p, v| p.lit.layers[0].share = v,
+            vec![-0.1, 1.1],
+        ),
+        (
+            "lit.layers[5].share",
+            |p, v| p.lit.layers[5].share = v,
+            vec![-0.1, 1.1],
+        ),
+        (
+            "lit.layers[1].height",
+            |p, v| p.lit.layers[1].height = v,
+            vec![0.0, 20.1],
+        ),
+        (
+            "lit.layers[2].velocity_m_s[0]",
+            |p, v| p.lit.layers[2].velocity_m_s[0] = v,
+            vec![-201.0, 201.0],
+        ),
+        (
+            "lit.layers[4].velocity_m_s[1]",
+            |p, v| p.lit.layers[4].velocity_m_s[1] = v,
+            vec![-201.0, 201.0],
+        ),
+        ("weather.rays", |p, v| p.weather.rays = v, vec![-0.1, 1.1]),
+        ("weather.rain", |p, v| p.weather.rain = v, vec![-0.1, 1.1]),
+        (
+            "weather.lightning.strength",
+            |p, v| p.weather.lightning.strength = v,
+            vec![-0.1, 1.1],
+        ),
+        (
+            "weather.lightning.start_s",
+            |p, v| p.weather.lightning.start_s = v.into(),
+            vec![-1.1e9, 1.1e9],
+        ),
+        (
+            "weather.lightning.place_m[0]",
+            |p, v| p.weather.lightning.place_m[0] = v,
+            vec![-1.1e6, 1.1e6],
+        ),
+        (
+            "weather.lightning.place_m[1]",
+            |p, v| p.weather.lightning.place_m[1] = v,
+            vec![-1.1e6, 1.1e6],
+        ),
+        (
+            "shadow_extent_m",
+            |p, v| p.shadow_extent_m = v,
+            vec![-1.0, 1.1e6],
+        ),
+    ];
+    assert_eq!(SkyParams::default().check(), Ok(()));
+    for (key, set, values) in cases {
+        let wild = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
+        for value in values.into_iter().chain(wild) {
+            let mut params = SkyParams::default();
+            set(&mut params, value);
+            let error = params.check().expect_err("out of range");
+            assert_eq!(error.key, key);
+            let message = error.to_string();
+            let told = message.starts_with(&format!("{key} is {value}, expected a number from "));
+            assert!(told, "{message}");
+            assert_eq!(params.clamped().check(), Ok(()), "{key} {value}");
+        }
+    }
+}
+
+fn noon_elevation_rad() -> f32 {
+    pack::default_pack().manifest().noon_elevation_rad
 }
 
 #[test]

@@ -4,6 +4,7 @@
 //! Each sky is prepared anew for each of its frames, a sixtieth of a second after the last, so that nothing
 //! off screen is left from the frame before. docs/json.md tells what `--json` prints.
 
+mod mukhina;
 mod report;
 mod scene;
 
@@ -19,7 +20,7 @@ use welkin_viewer::headless::new_sky;
 use welkin_viewer::reference::ReferencePass;
 use welkin_viewer::timing::FrameTimer;
 
-use crate::cli::BenchArgs;
+use crate::cli::{BenchArgs, Protocol};
 use report::{FOUR_SAMPLES, Report, Row, Times};
 use scene::{Scene, scenes};
 
@@ -36,12 +37,14 @@ const REFERENCES: [(&str, &str); 2] =
 pub fn run(args: &BenchArgs) -> Result<()> {
     let pack = Pack::open(&args.pack)?;
     let gpu = Gpu::open()?;
-    let report = measure(&gpu, &pack, args)?;
-    let text = if args.json {
-        serde_json::to_string_pretty(&report)? + "\n"
-    } else {
-        report.table()
-    };
+    let text = match args.protocol {
+        None => print(args, &report(&gpu, &pack, args)?, Report::table),
+        Some(Protocol::Mukhina) => print(
+            args,
+            &mukhina::report(&gpu, &pack, args.frames())?,
+            mukhina::Report::table,
+        ),
+    }?;
     let mut stdout = std::io::stdout().lock();
     match stdout
         .write_all(text.as_bytes())
@@ -60,13 +63,50 @@ enum Subject {
     Reference(ReferencePass),
 }
 
-fn measure(gpu: &Gpu, pack: &Pack, args: &BenchArgs) -> Result<Report> {
-    let mut subjects = subjects(gpu, pack, args)?;
-    let target = gpu.target(Target::Srgb8, args.size)?;
+/// A report as the options want it.
+fn print<R: serde::Serialize>(
+    args: &BenchArgs,
+    report: &R,
+    table: fn(&R) -> String,
+) -> Result<String> {
+    Ok(if args.json {
+        serde_json::to_string_pretty(report)? + "\n"
+    } else {
+        table(report)
+    })
+}
+
+fn report(gpu: &Gpu, pack: &Pack, args: &BenchArgs) -> Result<Report, GpuError> {
+    let scenes = args.methods().into_iter().flat_map(scenes).collect();
+    Ok(Report {
+        adapter: gpu.adapter.clone(),
+        clock: clock(gpu),
+        size: args.size(),
+        frames: args.frames(),
+        warm_up_frames: WARM_UP_FRAMES,
+        passes: measure(gpu, pack, scenes, args.size(), args.frames())?,
+    })
+}
+
+/// Whose clock it is: docs/json.md.
+fn clock(gpu: &Gpu) -> &'static str {
+    if gpu.has_timestamps() { "gpu" } else { "cpu" }
+}
+
+/// The rows of these scenes and of the reference passes.
+fn measure(
+    gpu: &Gpu,
+    pack: &Pack,
+    scenes: Vec<Scene>,
+    size: [u32; 2],
+    frames: u32,
+) -> Result<Vec<Row>, GpuError> {
+    let mut subjects = subjects(gpu, pack, scenes)?;
+    let target = gpu.target(Target::Srgb8, size)?;
     let view = target.create_view(&Default::default());
     let timer = FrameTimer::new(gpu)?;
     let mut times = vec![Times::default(); subjects.len()];
-    for frame in 0..WARM_UP_FRAMES + args.frames {
+    for frame in 0..WARM_UP_FRAMES + frames {
         for ((_, subject), times) in subjects.iter_mut().zip(&mut times) {
             let time = time(gpu, &timer, &view, subject, frame)?;
             if frame >= WARM_UP_FRAMES {
@@ -75,22 +115,18 @@ fn measure(gpu: &Gpu, pack: &Pack, args: &BenchArgs) -> Result<Report> {
         }
     }
     let rows = subjects.into_iter().zip(&times);
-    Ok(Report {
-        adapter: gpu.adapter.clone(),
-        clock: if gpu.has_timestamps() { "gpu" } else { "cpu" },
-        size: args.size,
-        frames: args.frames,
-        warm_up_frames: WARM_UP_FRAMES,
-        passes: report::with_ratios(
-            rows.map(|((name, subject), times)| row(name, &subject, times))
-                .collect(),
-        ),
-    })
+    Ok(report::with_ratios(
+        rows.map(|((name, subject), times)| row(name, &subject, times))
+            .collect(),
+    ))
 }
 
-fn subjects(gpu: &Gpu, pack: &Pack, args: &BenchArgs) -> Result<Vec<(String, Subject)>, GpuError> {
-    let scenes = args.method.list().into_iter().flat_map(scenes);
-    let skies = scenes.map(|scene| {
+fn subjects(
+    gpu: &Gpu,
+    pack: &Pack,
+    scenes: Vec<Scene>,
+) -> Result<Vec<(String, Subject)>, GpuError> {
+    let skies = scenes.into_iter().map(|scene| {
         let sky = new_sky(gpu, pack, Target::Srgb8)?;
         Ok((scene.name(), Subject::Sky(Box::new(sky), Box::new(scene))))
     });

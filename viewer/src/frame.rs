@@ -20,6 +20,8 @@ pub enum Pixels {
     Srgb8(Vec<[u8; 4]>),
     /// Red, green, blue, alpha: linear BT.709 radiance, 1.0 the white of a sunlit cloud at noon.
     Linear(Vec<[f16; 4]>),
+    /// One number, from 0 (byte 0) to 1 (byte 255): a share of light, not a colour.
+    Share8(Vec<u8>),
 }
 
 /// What to draw into: the form of the pixels and the texture that holds them.
@@ -50,7 +52,7 @@ impl Target {
 
     /// Bytes from one row to the next in a buffer that such a texture is copied to.
     pub(crate) const fn padded_row(self, width: u32) -> u32 {
-        (width * self.bytes_per_pixel()).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)
+        padded(width * self.bytes_per_pixel())
     }
 
     /// Tightly packed bytes of that texture to pixels.
@@ -60,4 +62,9 @@ impl Target {
             Target::Linear => Pixels::Linear(bytemuck::pod_collect_to_vec(bytes)),
         }
     }
+}
+
+/// Bytes from one row to the next in a buffer that a texture with rows of `row` bytes is copied to.
+pub(crate) const fn padded(row: u32) -> u32 {
+    row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)
 }

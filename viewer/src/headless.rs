@@ -3,7 +3,7 @@
 use welkin_pack::Pack;
 use welkin_runtime::{Camera, Sky, SkyConfig, SkyParams};
 
-use crate::frame::{Frame, Target};
+use crate::frame::{Frame, Pixels, Target, padded};
 use crate::gpu::{Gpu, GpuError};
 
 /// What to look at: the sky's parameters, the camera and the moment.
@@ -17,11 +17,21 @@ pub struct View {
     pub seconds: f64,
 }
 
+/// What was drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// The sky.
+    pub frame: Frame,
+    /// The clouds' shadows on the ground, where the sky has them: rows from north to south, texels from west to east, each the
+    /// share of direct light that the clouds let through. See [`welkin_runtime::shadow`].
+    pub shadow: Option<Frame>,
+}
+
 /// Draws one frame of a pack's sky.
 ///
 /// # Errors
 /// See [`GpuError`].
-pub fn render(gpu: &Gpu, pack: &Pack, target: Target, view: &View) -> Result<Frame, GpuError> {
+pub fn render(gpu: &Gpu, pack: &Pack, target: Target, view: &View) -> Result<Drawn, GpuError> {
     let texture = gpu.target(target, view.camera.viewport_px)?;
     let mut sky = new_sky(gpu, pack, target)?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -39,7 +49,11 @@ pub fn render(gpu: &Gpu, pack: &Pack, target: Target, view: &View) -> Result<Fra
         |pass| sky.draw(pass),
     );
     gpu.queue.submit([encoder.finish()]);
-    read_back(gpu, &texture, target)
+    let shadow = sky.shadow().map(|shadow| read_shares(gpu, shadow.texture));
+    Ok(Drawn {
+        frame: read_back(gpu, &texture, target)?,
+        shadow: shadow.transpose()?,
+    })
 }
 
 /// A sky that draws into a target of [`Gpu::target`].
@@ -78,14 +92,36 @@ pub fn draw_pass(
     }));
 }
 
-/// Copies a texture of [`Gpu::target`] to the CPU, without the padding that rows have in a buffer.
+/// A texture of [`Gpu::target`] on the CPU.
 fn read_back(gpu: &Gpu, texture: &wgpu::Texture, target: Target) -> Result<Frame, GpuError> {
-    let (width, height) = (texture.width(), texture.height());
-    let row = (width * target.bytes_per_pixel()) as usize;
-    let padded_row = target.padded_row(width);
+    let bytes = read_texels(gpu, texture, target.bytes_per_pixel())?;
+    Ok(Frame {
+        width: texture.width(),
+        height: texture.height(),
+        pixels: target.pixels(&bytes),
+    })
+}
+
+/// A texture of one 8-bit channel on the CPU.
+fn read_shares(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Frame, GpuError> {
+    Ok(Frame {
+        width: texture.width(),
+        height: texture.height(),
+        pixels: Pixels::Share8(read_texels(gpu, texture, 1)?),
+    })
+}
+
+/// Copies a texture to the CPU, without the padding that rows have in a buffer.
+fn read_texels(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    bytes_per_texel: u32,
+) -> Result<Vec<u8>, GpuError> {
+    let row = texture.width() * bytes_per_texel;
+    let padded_row = padded(row);
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("read back"),
-        size: u64::from(padded_row) * u64::from(height),
+        size: u64::from(padded_row) * u64::from(texture.height()),
         usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     });
@@ -104,14 +140,9 @@ fn read_back(gpu: &Gpu, texture: &wgpu::Texture, target: Target) -> Result<Frame
         texture.size(),
     );
     gpu.queue.submit([encoder.finish()]);
-    let padded = gpu.read(&buffer)?;
-    let rows = padded.chunks_exact(padded_row as usize);
-    let bytes: Vec<u8> = rows.flat_map(|r| &r[..row]).copied().collect();
-    Ok(Frame {
-        width,
-        height,
-        pixels: target.pixels(&bytes),
-    })
+    let bytes = gpu.read(&buffer)?;
+    let rows = bytes.chunks_exact(padded_row as usize);
+    Ok(rows.flat_map(|r| &r[..row as usize]).copied().collect())
 }
 
 #[cfg(test)]
@@ -119,7 +150,6 @@ mod tests {
     use half::f16;
 
     use super::*;
-    use crate::frame::Pixels;
     use crate::reference::full_screen_pipeline;
 
     /// Writes the place of every pixel as its colour.

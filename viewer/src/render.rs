@@ -26,8 +26,11 @@ pub fn run(args: &RenderArgs) -> Result<()> {
         view.params.cover = cover_for_oktas(&pack, &view.params, oktas)?;
     }
     let gpu = Gpu::open()?;
-    let frame = render(&gpu, &pack, target, &view)?;
-    save(&args.output, &frame)?;
+    let drawn = render(&gpu, &pack, target, &view)?;
+    save(&args.output, &drawn.frame)?;
+    if let (Some(file), Some(shadow)) = (&args.lit.shadow, &drawn.shadow) {
+        save(file, shadow)?;
+    }
     Ok(())
 }
 

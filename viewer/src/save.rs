@@ -9,6 +9,7 @@ use exr::prelude::{
     Encoding, Image, Layer, LayerAttributes, SpecificChannels, Text, Vec2, WritableImage,
 };
 use half::f16;
+use image::{ExtendedColorType, ImageEncoder};
 
 use crate::frame::{Frame, Pixels, Target};
 
@@ -34,7 +35,7 @@ pub enum SaveError {
     },
     /// The pixels do not suit the format.
     #[error(
-        "{file}: {format} holds {expected} pixels, but the frame was drawn to the other kind; draw it again for {format}"
+        "{file}: {format} holds {expected} pixels, but the frame was drawn to another kind; draw it again for {format}"
     )]
     WrongPixels {
         /// The file.
@@ -86,23 +87,21 @@ pub fn target_for(path: &Path) -> Result<Target, SaveError> {
 /// See [`SaveError`].
 pub fn save(path: &Path, frame: &Frame) -> Result<(), SaveError> {
     let file = || path.display().to_string();
+    let wrong = |format, expected| {
+        Err(SaveError::WrongPixels {
+            file: file(),
+            format,
+            expected,
+        })
+    };
     let encoded = match (target_for(path)?, &frame.pixels) {
-        (Target::Srgb8, Pixels::Srgb8(pixels)) => png(frame.width, frame.height, pixels),
+        (Target::Srgb8, Pixels::Srgb8(pixels)) => png_rgb(frame.width, frame.height, pixels),
+        (Target::Srgb8, Pixels::Share8(pixels)) => {
+            png(frame.width, frame.height, pixels, ExtendedColorType::L8)
+        }
         (Target::Linear, Pixels::Linear(pixels)) => exr(frame.width, frame.height, pixels),
-        (Target::Srgb8, Pixels::Linear(_)) => {
-            return Err(SaveError::WrongPixels {
-                file: file(),
-                format: "PNG",
-                expected: "8-bit sRGB",
-            });
-        }
-        (Target::Linear, Pixels::Srgb8(_)) => {
-            return Err(SaveError::WrongPixels {
-                file: file(),
-                format: "EXR",
-                expected: "linear",
-            });
-        }
+        (Target::Srgb8, Pixels::Linear(_)) => return wrong("PNG", "8-bit"),
+        (Target::Linear, _) => return wrong("EXR", "linear"),
     };
     let bytes = encoded.map_err(|reason| SaveError::Encode {
         file: file(),
@@ -115,11 +114,21 @@ pub fn save(path: &Path, frame: &Frame) -> Result<(), SaveError> {
 }
 
 /// The sky is opaque, so alpha stays out of the file.
-fn png(width: u32, height: u32, pixels: &[[u8; 4]]) -> Result<Vec<u8>, String> {
+fn png_rgb(width: u32, height: u32, pixels: &[[u8; 4]]) -> Result<Vec<u8>, String> {
     let rgb: Vec<u8> = pixels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
+    png(width, height, &rgb, ExtendedColorType::Rgb8)
+}
+
+fn png(
+    width: u32,
+    height: u32,
+    samples: &[u8],
+    colour: ExtendedColorType,
+) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     let encoder = image::codecs::png::PngEncoder::new(&mut bytes);
-    image::ImageEncoder::write_image(encoder, &rgb, width, height, image::ExtendedColorType::Rgb8)
+    encoder
+        .write_image(samples, width, height, colour)
         .map_err(|e| e.to_string())?;
     Ok(bytes)
 }
@@ -203,6 +212,14 @@ mod tests {
         }
     }
 
+    fn share_frame() -> Frame {
+        Frame {
+            width: SIZE[0],
+            height: SIZE[1],
+            pixels: Pixels::Share8(vec![0, 1, 60, 128, 254, 255]),
+        }
+    }
+
     #[test]
     fn png_gives_back_the_same_bytes() {
         let folder = tempfile::tempdir().unwrap();
@@ -213,6 +230,16 @@ mod tests {
         assert_eq!([read.width(), read.height()], SIZE);
         let pixels = read.pixels().map(|p| p.0).collect();
         assert_eq!(Pixels::Srgb8(pixels), frame.pixels);
+    }
+
+    #[test]
+    fn shares_stay_the_bytes_that_they_are() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("shadow.png");
+        save(&path, &share_frame()).unwrap();
+        let read = image::open(&path).unwrap();
+        assert_eq!(read.color(), image::ColorType::L8);
+        assert_eq!(Pixels::Share8(read.into_bytes()), share_frame().pixels);
     }
 
     #[test]
@@ -254,6 +281,10 @@ mod tests {
         ));
         assert!(matches!(
             save_as("frame.PNG", linear_frame()),
+            Err(SaveError::WrongPixels { .. })
+        ));
+        assert!(matches!(
+            save_as("shadow.exr", share_frame()),
             Err(SaveError::WrongPixels { .. })
         ));
         assert_eq!(folder.path().read_dir().unwrap().count(), 0);

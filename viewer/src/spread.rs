@@ -1,8 +1,10 @@
-//! What is left of many times: their middle, and how far they spread.
+//! What is left of many times: their mean, their middle, and how far they spread.
 
-/// The middle of many times, and how far they spread.
+/// The mean and the middle of many times, and how far they spread.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
+    /// Their sum over their count.
+    pub mean: f64,
     /// Half of the times are below.
     pub median: f64,
     /// One in ten is below.
@@ -21,6 +23,7 @@ impl Spread {
         sorted.sort_by(f64::total_cmp);
         if sorted.is_empty() {
             return Spread {
+                mean: f64::NAN,
                 median: f64::NAN,
                 p10: f64::NAN,
                 p90: f64::NAN,
@@ -32,6 +35,7 @@ impl Spread {
             low + (high - low) * at.fract()
         };
         Spread {
+            mean: sorted.iter().sum::<f64>() / sorted.len() as f64,
             median: quantile(0.5),
             p10: quantile(0.1),
             p90: quantile(0.9),
@@ -49,6 +53,7 @@ mod tests {
         assert_eq!(
             Spread::of(&times),
             Spread {
+                mean: 50.0,
                 median: 50.0,
                 p10: 10.0,
                 p90: 90.0
@@ -61,11 +66,18 @@ mod tests {
         assert_eq!(
             Spread::of(&[2.5]),
             Spread {
+                mean: 2.5,
                 median: 2.5,
                 p10: 2.5,
                 p90: 2.5
             }
         );
+    }
+
+    #[test]
+    fn one_long_time_moves_the_mean_and_not_the_median() {
+        let spread = Spread::of(&[1.0, 1.0, 10.0, 1.0, 1.0]);
+        assert_eq!((spread.mean, spread.median), (2.8, 1.0));
     }
 
     #[test]

@@ -7,7 +7,7 @@ mod common;
 
 use serde_json::Value;
 
-use common::{pack, run, view};
+use common::{failed, pack, run, view};
 
 const REFERENCES: [&str; 2] = ["one sample", "four samples"];
 
@@ -20,6 +20,15 @@ fn bench(words: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
+/// What is timed of lit alone.
+const LIT: [&str; 5] = [
+    "alone, 1 layer",
+    "alone, 6 layers",
+    "alone, ground shadow",
+    "noon, rays",
+    "noon, rain",
+];
+
 /// Names of the rows of a method, in the order of the table.
 fn rows_of(method: &str) -> Vec<String> {
     let mut labels = ["noon", "sunset", "night", "alone"]
@@ -30,6 +39,7 @@ fn rows_of(method: &str) -> Vec<String> {
             .extend((1..=8).map(|n| format!("alone, {n} octave{}", if n == 1 { "" } else { "s" }))),
         "fbm" => labels.push("alone, sun moves".to_string()),
         "packed" => labels.push("alone, Perez sky".to_string()),
+        "lit" => labels.extend(LIT.map(str::to_string)),
         _ => {}
     }
     labels
@@ -56,9 +66,12 @@ fn by_itself_it_times_the_packed_method_beside_the_reference_passes() {
     expected.extend(REFERENCES.map(str::to_string));
     assert_eq!(names(passes), expected);
     for pass in passes {
-        let [p10, median, p90, dome, ratio] = ["p10_ms", "median_ms", "p90_ms", "dome_ms", "ratio"]
-            .map(|key| pass[key].as_f64().unwrap());
+        let [p10, median, p90, mean] =
+            ["p10_ms", "median_ms", "p90_ms", "mean_ms"].map(|key| pass[key].as_f64().unwrap());
         assert!(0.0 < p10 && p10 <= median && median <= p90, "{pass}");
+        // From the least of three times to the median, p10 goes a fifth of the way and the mean two thirds or more.
+        assert!(mean > p10 * (1.0 - 1e-9), "{pass}");
+        let [dome, ratio] = ["dome_ms", "ratio"].map(|key| pass[key].as_f64().unwrap());
         assert!(0.0 < dome && ratio > 0.0, "{pass}");
     }
     assert_eq!(passes.last().unwrap()["ratio"], 1.0);
@@ -70,9 +83,12 @@ fn with_all_methods_it_is_one_table_with_each_method_s_memory() {
         "--method", "all", "--frames", "2", "--size", "16x16", "--json",
     ];
     let report: Value = serde_json::from_str(&bench(&words)).unwrap();
-    let (skies, references) = report["passes"].as_array().unwrap().split_at(5 + 12 + 5);
+    let (skies, references) = report["passes"]
+        .as_array()
+        .unwrap()
+        .split_at(5 + 12 + 5 + 9);
     assert_eq!(names(references), REFERENCES);
-    let expected: Vec<String> = ["packed", "octaves", "fbm"]
+    let expected: Vec<String> = ["packed", "octaves", "fbm", "lit"]
         .into_iter()
         .flat_map(rows_of)
         .collect();
@@ -83,7 +99,7 @@ fn with_all_methods_it_is_one_table_with_each_method_s_memory() {
         assert!(sky["memory_bytes"].as_u64().unwrap() > 0, "{sky}");
         let [prepare, map] = ["prepare_ms", "map_ms"].map(|key| sky[key].as_f64().unwrap());
         assert!(prepare > 0.0 && map >= 0.0, "{sky}");
-        // Both of these draw a map off screen, every frame.
+        // All others draw a map off screen, every frame.
         assert!(method == "packed" || map > 0.0, "{sky}");
     }
     for reference in references {
@@ -114,4 +130,29 @@ fn the_table_has_a_line_for_every_row() {
         first[1].starts_with("8x8 pixels") && !first[0].is_empty(),
         "{table}"
     );
+}
+
+#[test]
+fn what_a_protocol_sets_cannot_be_set_again() {
+    let attempts: [(&[&str], &[&str]); 3] = [
+        (
+            &["--protocol", "mukhina", "--method", "packed"],
+            &["--method packed", "--protocol mukhina, which times lit"],
+        ),
+        (
+            &["--protocol", "mukhina", "--size", "64x48"],
+            &["--size 64x48", "800x600, 1280x720 and 1920x1080"],
+        ),
+        (
+            &["--protocol", "bezgodov"],
+            &["bezgodov", "--protocol", "mukhina"],
+        ),
+    ];
+    for (words, told) in attempts {
+        let mut command = view(&["bench"]);
+        command.arg(pack()).args(words);
+        let output = run(command);
+        failed(&output, 2, told);
+        assert!(output.stdout.is_empty());
+    }
 }

@@ -27,6 +27,7 @@ pub struct Row {
     pub prepare_ms: Option<f64>,
     pub map_ms: Option<f64>,
     pub dome_ms: f64,
+    pub mean_ms: f64,
     pub median_ms: f64,
     pub p10_ms: f64,
     pub p90_ms: f64,
@@ -86,6 +87,7 @@ impl Row {
             prepare_ms: None,
             map_ms: None,
             dome_ms: Spread::of(dome).median,
+            mean_ms: frame.mean,
             median_ms: frame.median,
             p10_ms: frame.p10,
             p90_ms: frame.p90,
@@ -109,10 +111,7 @@ impl Report {
     /// The table, and what its columns are.
     pub fn table(&self) -> String {
         let [width, height] = self.size;
-        let clock = match self.clock {
-            "gpu" => "GPU time by timestamp queries",
-            _ => "CPU wall time with the wait for the GPU, since it has no timestamp queries",
-        };
+        let clock = clock_in_words(self.clock);
         let mut text = format!(
             "{}\n{width}x{height} pixels, sky fills the frame (looking up {CAMERA_ELEVATION_DEG} degrees), \
              {} frames after {} to warm up\n{clock}, in milliseconds, medians but for p10 and p90\n\
@@ -140,9 +139,21 @@ impl Report {
     }
 }
 
+/// What [`Report::clock`] is.
+pub fn clock_in_words(clock: &str) -> &'static str {
+    match clock {
+        "gpu" => "GPU time by timestamp queries",
+        _ => "CPU wall time with the wait for the GPU, since it has no timestamp queries",
+    }
+}
+
+/// A time in the table, or a dash where there is none.
+pub fn ms(value: Option<f64>) -> String {
+    value.map_or("-".to_string(), |v| format!("{v:.3}"))
+}
+
 impl Row {
     fn line(&self) -> String {
-        let ms = |value: Option<f64>| value.map_or("-".to_string(), |v| format!("{v:.3}"));
         let mb = |bytes: u64| format!("{:.2}", bytes as f64 / 1e6);
         format!(
             "{:<26}{:>8}{:>8.3}{:>9.3}{:>9.3}{:>9.3}{:>16.2}x{:>8}{:>8}\n",

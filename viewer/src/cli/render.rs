@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use clap::{ArgMatches, Args, ValueEnum};
-use welkin_runtime::{Camera, FbmParams, Method, OctaveParams, SkyParams};
+use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_viewer::headless::View;
 
 use super::clear_sky::ClearSkyArgs;
-use super::values::{
-    azimuth_deg, elevation_deg, formation_interval_s, fov_deg, octaves, oktas, place_m, seconds,
-    size, three_units, unit,
-};
+use super::clouds::{CloudArgs, OWNERS};
+use super::lit::{self, LitArgs};
+use super::values::{azimuth_deg, elevation_deg, fov_deg, oktas, place_m, seconds, size, unit};
+use super::weather::WeatherArgs;
 use super::{belongs, is_given};
 
 #[derive(Debug, Args)]
@@ -38,6 +38,10 @@ pub struct RenderArgs {
     #[command(flatten)]
     pub clouds: CloudArgs,
     #[command(flatten)]
+    pub lit: LitArgs,
+    #[command(flatten)]
+    pub weather: WeatherArgs,
+    #[command(flatten)]
     pub camera: CameraArgs,
 }
 
@@ -50,6 +54,8 @@ pub enum MethodName {
     Octaves,
     /// Quilez: octaves of smooth noise that drift, lit by a short march towards the sun
     Fbm,
+    /// Mukhina and Bezgodov: layers of three kinds, lit by sun and moon
+    Lit,
 }
 
 impl From<MethodName> for Method {
@@ -58,6 +64,7 @@ impl From<MethodName> for Method {
             MethodName::Packed => Method::Packed,
             MethodName::Octaves => Method::Octaves,
             MethodName::Fbm => Method::Fbm,
+            MethodName::Lit => Method::Lit,
         }
     }
 }
@@ -105,80 +112,12 @@ pub struct LightArgs {
     pub no_stars: bool,
 }
 
-/// What some methods know and others do not: see [`OWNERS`].
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Clouds of one method")]
-pub struct CloudArgs {
-    /// packed: amount of a thin upper layer, 0 (none) to 1
-    #[arg(long, value_name = "U", default_value_t = SkyParams::default().upper_layer, value_parser = unit, allow_negative_numbers = true)]
-    pub upper: f32,
-    /// octaves: how many are summed, 1 to 8
-    #[arg(long, value_name = "N", default_value_t = OctaveParams::default().count, value_parser = octaves, allow_negative_numbers = true)]
-    pub octaves: u32,
-    /// octaves: seconds in which clouds form anew, 0.1 to 86400
-    #[arg(long, value_name = "SECONDS", default_value_t = OctaveParams::default().formation_interval_s, value_parser = formation_interval_s, allow_negative_numbers = true)]
-    pub formation_interval: f32,
-    #[arg(long, value_name = "LOW,MIDDLE,HIGH", value_parser = three_units, allow_hyphen_values = true, help = domes_help())]
-    pub domes: Option<[f32; 3]>,
-    #[arg(long, value_name = "S", value_parser = unit, allow_negative_numbers = true, help = sharpness_help())]
-    pub sharpness: Option<f32>,
-    /// fbm: colours of the clouds
-    #[arg(long, value_enum, default_value_t = Palette::Fair)]
-    pub palette: Palette,
-    /// fbm: reflectance where the light comes through, linear, each 0 to 1 [default: the palette's]
-    #[arg(long, value_name = "R,G,B", value_parser = three_units, allow_hyphen_values = true)]
-    pub lit: Option<[f32; 3]>,
-    /// fbm: reflectance where clouds shade themselves, linear, each 0 to 1 [default: the palette's]
-    #[arg(long, value_name = "R,G,B", value_parser = three_units, allow_hyphen_values = true)]
-    pub shaded: Option<[f32; 3]>,
-}
-
 fn skybox_help() -> String {
     let usual = SkyParams::default().skybox;
     format!(
         "How far the pack's skybox takes the place of the computed sky, 0 to 1 [default: {usual}, where the pack has one]"
     )
 }
-
-fn domes_help() -> String {
-    let [low, middle, high] = OctaveParams::default().domes;
-    format!(
-        "octaves: cover of each dome as a share of --cover, 0 to 1; 0 leaves it out [default: {low},{middle},{high}]"
-    )
-}
-
-fn sharpness_help() -> String {
-    let [octaves, fair, stormy] = [
-        OctaveParams::default().sharpness,
-        FbmParams::FAIR.sharpness,
-        FbmParams::STORMY.sharpness,
-    ];
-    format!(
-        "octaves, fbm: how sharply clouds end, 0 to 1 \
-         [default: {octaves} for octaves, {fair} for fbm, {stormy} with the stormy palette]"
-    )
-}
-
-/// Colours of [`Method::Fbm`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Palette {
-    /// White clouds with grey undersides
-    Fair,
-    /// Two dark greys
-    Stormy,
-}
-
-/// The options of [`CloudArgs`], and the methods that know them.
-const OWNERS: [(&str, &[Method]); 8] = [
-    ("upper", &[Method::Packed]),
-    ("octaves", &[Method::Octaves]),
-    ("formation_interval", &[Method::Octaves]),
-    ("domes", &[Method::Octaves]),
-    ("sharpness", &[Method::Octaves, Method::Fbm]),
-    ("palette", &[Method::Fbm]),
-    ("lit", &[Method::Fbm]),
-    ("shaded", &[Method::Fbm]),
-];
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Camera")]
@@ -214,6 +153,9 @@ impl RenderArgs {
     }
 
     fn params(&self) -> SkyParams {
+        let method = Method::from(self.method);
+        // Its range is not the same for every method that has it.
+        let interval = |of| self.clouds.formation_interval.filter(|_| of == method);
         SkyParams {
             cover: self.sky.cover,
             height: self.sky.height,
@@ -224,9 +166,12 @@ impl RenderArgs {
             sky: self.clear_sky.sky.into(),
             perez: self.clear_sky.perez_params(),
             upper_layer: self.clouds.upper,
-            method: self.method.into(),
-            octaves: self.clouds.octave_params(),
+            method,
+            octaves: self.clouds.octave_params(interval(Method::Octaves)),
             fbm: self.clouds.fbm_params(),
+            lit: self.lit.params(interval(Method::Lit)),
+            weather: self.weather.params(self.at),
+            shadow_extent_m: self.lit.shadow_extent_m(),
             sun: !self.light.no_sun,
             stars: !self.light.no_stars,
             flare: self.light.flare,
@@ -238,15 +183,14 @@ impl RenderArgs {
     /// An option that the method would not look at is a mistake, and told.
     ///
     /// # Errors
-    /// Which option it is, and whose.
+    /// Which option it is, and whose; or that its value is not for this method.
     pub fn refuse_others(&self, given: &ArgMatches) -> Result<(), String> {
         self.clear_sky.refuse_others(given)?;
         let method = Method::from(self.method);
-        let stray = OWNERS
-            .iter()
-            .find(|(option, owners)| is_given(given, option) && !owners.contains(&method));
+        let stray =
+            owners().find(|(option, owners)| is_given(given, option) && !owners.contains(&method));
         let Some((option, owners)) = stray else {
-            return Ok(());
+            return self.check_shadow().and_then(|()| self.check_interval());
         };
         let owners = owners.iter().map(|m| m.name()).collect::<Vec<_>>();
         Err(belongs(
@@ -256,30 +200,37 @@ impl RenderArgs {
             "change the method",
         ))
     }
+
+    /// One picture would take the place of the other.
+    fn check_shadow(&self) -> Result<(), String> {
+        if self.lit.shadow.as_ref() != Some(&self.output) {
+            return Ok(());
+        }
+        Err(format!(
+            "--shadow and --output both name {}; choose two names",
+            self.output.display()
+        ))
+    }
+
+    /// All other values are in their ranges when they have been read.
+    fn check_interval(&self) -> Result<(), String> {
+        self.params().check().map_err(|error| {
+            format!(
+                "--formation-interval is {}, with --method {} expected {} seconds",
+                error.found,
+                Method::from(self.method).name(),
+                error.expected
+            )
+        })
+    }
 }
 
-impl CloudArgs {
-    fn octave_params(&self) -> OctaveParams {
-        let usual = OctaveParams::default();
-        OctaveParams {
-            count: self.octaves,
-            sharpness: self.sharpness.unwrap_or(usual.sharpness),
-            formation_interval_s: self.formation_interval,
-            domes: self.domes.unwrap_or(usual.domes),
-        }
-    }
-
-    fn fbm_params(&self) -> FbmParams {
-        let usual = match self.palette {
-            Palette::Fair => FbmParams::FAIR,
-            Palette::Stormy => FbmParams::STORMY,
-        };
-        FbmParams {
-            sharpness: self.sharpness.unwrap_or(usual.sharpness),
-            lit: self.lit.unwrap_or(usual.lit),
-            shaded: self.shaded.unwrap_or(usual.shaded),
-        }
-    }
+/// The options that some methods know and others do not, and the methods that know them.
+fn owners() -> impl Iterator<Item = (&'static str, &'static [Method])> {
+    let lit: &[Method] = &[Method::Lit];
+    OWNERS
+        .into_iter()
+        .chain(lit::OPTIONS.map(|option| (option, lit)))
 }
 
 impl CameraArgs {

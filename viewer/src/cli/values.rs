@@ -3,9 +3,9 @@
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-use welkin_runtime::cie;
 use welkin_runtime::params::{FORMATION_INTERVAL_S, MAX_OCTAVES};
 use welkin_runtime::perez::{CUSTOM, TURBIDITY};
+use welkin_runtime::{SkyParams, cie};
 
 /// Farther than this from the origin, clouds that are kilometres high say nothing of the place any more.
 const PLACE_RANGE_M: f64 = 1e6;
@@ -33,6 +33,16 @@ pub fn place_m(text: &str) -> Result<f32, String> {
     within(text, -PLACE_RANGE_M..=PLACE_RANGE_M, " metres").map(|v| v as f32)
 }
 
+pub fn place_km(text: &str) -> Result<f32, String> {
+    let range_km = PLACE_RANGE_M as f32 / 1e3;
+    within(text, -range_km..=range_km, " kilometres")
+}
+
+/// The sky takes 0 for no shadow at all, and on less than a metre there is nothing to see.
+pub fn shadow_extent_m(text: &str) -> Result<f32, String> {
+    within(text, 1.0..=1e6, " metres")
+}
+
 pub fn oktas(text: &str) -> Result<f32, String> {
     within(text, 0.0..=8.0, " oktas").map(|v| v as f32)
 }
@@ -46,6 +56,22 @@ pub fn seconds(text: &str) -> Result<f64, String> {
 pub fn formation_interval_s(text: &str) -> Result<f32, String> {
     let [low, high] = FORMATION_INTERVAL_S;
     within(text, low..=high, " seconds")
+}
+
+/// A number that the sky takes where `set` puts it: the sky's own check tells the range.
+pub fn of_sky<T: FromStr + From<f32> + Copy>(
+    text: &str,
+    set: impl FnOnce(&mut SkyParams, T),
+    unit: &str,
+) -> Result<T, String> {
+    // What is no number is in no range.
+    let value = text.parse().unwrap_or_else(|_| f32::NAN.into());
+    let mut sky = SkyParams::default();
+    set(&mut sky, value);
+    match sky.check() {
+        Ok(()) => Ok(value),
+        Err(error) => Err(format!("expected {}{unit}", error.expected)),
+    }
 }
 
 pub fn octaves(text: &str) -> Result<u32, String> {

@@ -1,3 +1,5 @@
+use welkin_runtime::{FbmParams, OctaveParams};
+
 use super::*;
 use crate::cli::{Cli, Command};
 
@@ -46,6 +48,8 @@ fn shares_outside_their_range_are_refused_by_name() {
         "--skybox",
         "--upper",
         "--sharpness",
+        "--rays",
+        "--rain",
     ] {
         for value in ["1.01", "-0.1", "nan", "inf", "half", ""] {
             let error = error_of(&[option, value]);
@@ -175,7 +179,7 @@ fn sizes_are_two_positive_numbers() {
 fn an_unknown_method_or_palette_is_answered_with_those_that_there_are() {
     let error = error_of(&["--method", "sprites"]);
     assert!(
-        error.contains("--method") && error.contains("packed, octaves, fbm"),
+        error.contains("--method") && error.contains("packed, octaves, fbm, lit"),
         "{error}"
     );
     let error = error_of(&["--method", "fbm", "--palette", "pink"]);
@@ -190,12 +194,20 @@ fn options_of_another_method_are_refused_and_say_whose_they_are() {
     for (option, value, owners) in [
         ("--upper", "0.5", vec!["packed"]),
         ("--octaves", "4", vec!["octaves"]),
-        ("--formation-interval", "60", vec!["octaves"]),
+        ("--formation-interval", "60", vec!["octaves", "lit"]),
         ("--domes", "1,1,1", vec!["octaves"]),
         ("--sharpness", "0.5", vec!["octaves", "fbm"]),
         ("--palette", "fair", vec!["fbm"]),
         ("--lit", "1,1,1", vec!["fbm"]),
         ("--shaded", "0,0,0", vec!["fbm"]),
+        ("--layers", "cumulus", vec!["lit"]),
+        ("--dome-radius", "20000", vec!["lit"]),
+        ("--flattening", "0.5", vec!["lit"]),
+        ("--k1", "0.5", vec!["lit"]),
+        ("--k2", "0.5", vec!["lit"]),
+        ("--m", "2", vec!["lit"]),
+        ("--moon", "0", vec!["lit"]),
+        ("--shadow", "s.png", vec!["lit"]),
     ] {
         for method in Method::ALL.map(Method::name) {
             let args = ["--method", method, option, value];
@@ -219,12 +231,15 @@ fn options_of_another_method_are_refused_and_say_whose_they_are() {
 /// An option of one method that is missing among the owners would be taken, and ignored, by the others.
 #[test]
 fn every_option_of_one_method_has_its_owners() {
-    let command = CloudArgs::augment_args(clap::Command::new("clouds"));
+    let command = LitArgs::augment_args(CloudArgs::augment_args(clap::Command::new("clouds")));
     let options: Vec<&str> = command
         .get_arguments()
         .map(|a| a.get_id().as_str())
         .collect();
-    assert_eq!(options, OWNERS.map(|(option, _)| option));
+    assert_eq!(
+        options,
+        owners().map(|(option, _)| option).collect::<Vec<_>>()
+    );
 }
 
 #[test]

@@ -1,0 +1,100 @@
+// Clouds of the lit method: layers with normals on an oblate hemisphere. Theory and CPU part: lit.rs.
+struct LitLayerUniforms {
+    axes: vec4f,  // xy: what a height of the dome to the east, zw: to the south adds to uv
+    place: vec4f, // xy: offset; zw: how far the second read is from the first
+    shape: vec4f, // x: the cut; y: 1 / thickness at which it is opaque; z: opacity where thick; w: how fast shade deepens
+    sun: vec4f,   // xy: a step of the shade towards the sun, in uv; z: level of detail at distance 1; w: layer of the pack's texture
+    facing: vec4f, // xy: horizontal part of the direction to the sun, along u and v; z: share of the grain; w: relief
+}
+
+struct LitUniforms {
+    dome: vec4f,    // x: f^2; y: 1 - f^2, f the flattening; z: layers; w: texels a side of the map
+    light: vec4f,   // rgb: light of sun or moon on clouds; w: k1
+    towards: vec4f, // xyz: unit direction towards sun or moon; w: k2
+    ambient: vec4f, // rgb: light of the sky on clouds; w: m
+    layers: array<LitLayerUniforms, 6>,
+}
+
+// Distance to the dome along a unit direction, in its heights.
+fn lit_intersect(direction: vec3f) -> f32 {
+    return inverseSqrt(uniforms.lit.dome.x + uniforms.lit.dome.y * direction.y * direction.y);
+}
+
+// Level of detail of a texture with one texel a height: half way between the sides of the footprint.
+fn lit_level(distance: f32, direction: vec3f, narrowing: f32) -> f32 {
+    let side = distance * narrowing;
+    return 0.5 * log2(max(side * side * max(distance * distance * direction.y, LIT_LEAST_STRETCH), 1e-12));
+}
+
+fn lit_uv(index: i32, plane: vec2f) -> vec2f {
+    let axes = uniforms.lit.layers[index].axes;
+    return axes.xy * plane.x + axes.zw * plane.y + uniforms.lit.layers[index].place.xy;
+}
+
+// The finer read of an iteration, by its lowest layer: how much denser it is than most, and how its normal meets the sun.
+fn lit_grain(index: i32, plane: vec2f, level: f32) -> vec2f {
+    let facing = uniforms.lit.layers[index].facing;
+    if facing.z == 0.0 {
+        return vec2f(0.0);
+    }
+    let uv = lit_uv(index, plane) * LIT_FINER + LIT_FINER_START;
+    let sun = uniforms.lit.layers[index].sun;
+    let finer = textureSampleLevel(layers_texture, repeat_sampler, uv, i32(sun.w), level + sun.z + LIT_FINER_LEVEL);
+    return vec2f(finer.w - 0.5, LIT_FINER_RELIEF * dot(finer.xy * 2.0 - 1.0, facing.xy));
+}
+
+// A layer along a ray, roughened by the grain: light that falls on it, nothing, opacity, shade.
+fn lit_cloud(index: i32, plane: vec2f, level: f32, grain: vec2f) -> vec4f {
+    let at_level = level + uniforms.lit.layers[index].sun.z;
+    let cloud = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane), index, at_level);
+    let rough = uniforms.lit.layers[index].facing.z * grain;
+    let alpha = clamp(cloud.z + rough.x * cloud.z * (1.0 - cloud.z), 0.0, 1.0);
+    return vec4f(max(cloud.x + rough.y, 0.0), 0.0, alpha * uniforms.lit.layers[index].shape.z, cloud.w);
+}
+
+// What has been drawn of a sky, from the highest layer down.
+struct LitSum {
+    sunlight: f32, // of sun or moon, as a factor on its light, times opacity
+    skylight: f32, // of the sky, likewise
+    clear: f32,    // what is left of the light behind
+    shade: f32,    // what is left of the light from above
+}
+
+// Draws a layer before those behind it. `through` is eq. 4.
+fn lit_over(behind: LitSum, cloud: vec4f, through: f32) -> LitSum {
+    let shade = cloud.w * behind.shade; // eq. 5
+    return LitSum(
+        mix(behind.sunlight, (through + cloud.x) * shade, cloud.z), // eq. 6
+        mix(behind.skylight, LIT_AMBIENT.x + LIT_AMBIENT.y * shade, cloud.z),
+        behind.clear * (1.0 - cloud.z),
+        behind.shade * (1.0 - LIT_SHADED_BY_LAYER * cloud.z),
+    );
+}
+
+// Three layers, their reads first: none waits for another. Not a loop: constants at known places cost nothing.
+fn lit_iteration(behind: LitSum, first: i32, plane: vec2f, level: f32, through: f32) -> LitSum {
+    let grain = lit_grain(first, plane, level);
+    let low = lit_cloud(first, plane, level, grain);
+    let middle = lit_cloud(first + 1, plane, level, grain);
+    let high = lit_cloud(first + 2, plane, level, grain);
+    return lit_over(lit_over(lit_over(behind, high, through), middle, through), low, through);
+}
+
+// Radiance and opacity of the clouds along a unit direction above the horizon.
+fn lit_layer(direction: vec3f, narrowing: f32) -> vec4f {
+    let distance = lit_intersect(direction);
+    let plane = direction.xz * distance;
+    let level = lit_level(distance, direction, narrowing);
+    let towards = uniforms.lit.towards;
+    let scattered = uniforms.lit.light.w + towards.w * dot(direction, towards.xyz);
+    let through = pow(max(scattered, 0.0), uniforms.lit.ambient.w); // eq. 4
+    var sum = LitSum(0.0, 0.0, 1.0, 1.0);
+    if uniforms.lit.dome.z > LIT_LAYERS_AN_ITERATION {
+        sum = lit_iteration(sum, LIT_LAYERS_AN_ITERATION, plane, level, through);
+    }
+    sum = lit_iteration(sum, 0, plane, level, through);
+    let alpha = 1.0 - sum.clear;
+    let tint = mix(vec3f(1.0), uniforms.clouds.tint.rgb, cloud_tint(direction));
+    let radiance = sum.sunlight * uniforms.lit.light.rgb + sum.skylight * uniforms.lit.ambient.rgb;
+    return vec4f(radiance * tint / max(alpha, 1e-4), alpha * cloud_clearness(direction));
+}

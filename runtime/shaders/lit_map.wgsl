@@ -1,0 +1,85 @@
+// The map of the lit method: light, opacity and shade of three layers at once. CPU part: lit_map.rs.
+override FIRST_LAYER: i32 = 0;
+
+struct LitTargets {
+    @location(0) first: vec4f,
+    @location(1) second: vec4f,
+    @location(2) third: vec4f,
+}
+
+// The share of places with less than this blend of two even numbers: the integral of a trapezoid.
+fn lit_even(blend: f32) -> f32 {
+    let foot = LIT_WEIGHTS.y;
+    let corner = 0.5 / (LIT_WEIGHTS.x * LIT_WEIGHTS.y);
+    if blend < foot {
+        return corner * blend * blend;
+    }
+    if blend > LIT_WEIGHTS.x {
+        return 1.0 - corner * (1.0 - blend) * (1.0 - blend);
+    }
+    return (blend - 0.5 * foot) / LIT_WEIGHTS.x;
+}
+
+// The pack's texture where a layer reads it, both reads blended: normal, density, amount.
+fn lit_noise(layer: LitLayerUniforms, uv: vec2f, level: f32) -> vec4f {
+    let kind = i32(layer.sun.w);
+    let here = textureSampleLevel(layers_texture, repeat_sampler, uv, kind, level);
+    let other = textureSampleLevel(layers_texture, repeat_sampler, uv + layer.place.zw, kind, level);
+    let blend = LIT_WEIGHTS.x * here + LIT_WEIGHTS.y * other;
+    return vec4f(blend.xyz, lit_even(blend.w));
+}
+
+// R: light that falls on the cloud; G: the amount of cloud; B: opacity; A: shade.
+fn lit_map_texel(index: i32, uv: vec2f) -> vec4f {
+    let layer = uniforms.lit.layers[index];
+    let cloud = lit_noise(layer, uv, 0.0);
+    let slope = layer.facing.w * (cloud.xy * 2.0 - 1.0);
+    let upward = sqrt(max(1.0 - dot(slope, slope), LIT_LEAST_UP));
+    let falls = max(dot(slope, layer.facing.xy) + upward * uniforms.lit.towards.y, 0.0); // eq. 3
+    let thickness = max(cloud.w - layer.shape.x, 0.0);
+    let alpha = smoothstep(0.0, 1.0, layer.shape.y * thickness);
+    // Nearer cloud shades more: the weights fall evenly from the place itself to the last step.
+    var sum = (f32(LIT_STEPS) + 1.0) * lit_thick(layer, cloud);
+    for (var k = 1; k <= LIT_STEPS; k++) {
+        let towards = lit_noise(layer, uv + f32(k) * layer.sun.xy, LIT_STEP_LEVEL);
+        sum += f32(LIT_STEPS + 1 - k) * lit_thick(layer, towards);
+    }
+    let weights = 0.5 * f32((LIT_STEPS + 1) * (LIT_STEPS + 2));
+    // Eq. 5 with C = 1 - 2^(-w s), so that it never ends: (1 - C)^m.
+    let shade = exp2(-uniforms.lit.ambient.w * layer.shape.w * sum / weights);
+    return vec4f(falls, cloud.w, alpha, shade);
+}
+
+// What a place holds back of the light: thickness above the cut, more where it is dense.
+fn lit_thick(layer: LitLayerUniforms, cloud: vec4f) -> f32 {
+    return max(cloud.w - max(layer.shape.x, 0.0), 0.0) * (0.5 + cloud.z);
+}
+
+@fragment
+fn fs_lit_map(@builtin(position) position: vec4f) -> LitTargets {
+    let uv = position.xy / uniforms.lit.dome.w;
+    return LitTargets(
+        lit_map_texel(FIRST_LAYER, uv),
+        lit_map_texel(FIRST_LAYER + 1, uv),
+        lit_map_texel(FIRST_LAYER + 2, uv),
+    );
+}
+
+// A level from the one above it: the mean of 2x2 texels of three layers.
+@fragment
+fn fs_lit_level(@builtin(position) position: vec4f) -> LitTargets {
+    let corner = vec2i(position.xy) * 2;
+    return LitTargets(
+        lit_mean(corner, FIRST_LAYER),
+        lit_mean(corner, FIRST_LAYER + 1),
+        lit_mean(corner, FIRST_LAYER + 2),
+    );
+}
+
+fn lit_mean(corner: vec2i, layer: i32) -> vec4f {
+    let upper = textureLoad(layers_texture, corner, layer, 0)
+        + textureLoad(layers_texture, corner + vec2i(1, 0), layer, 0);
+    let lower = textureLoad(layers_texture, corner + vec2i(0, 1), layer, 0)
+        + textureLoad(layers_texture, corner + vec2i(1, 1), layer, 0);
+    return 0.25 * (upper + lower);
+}

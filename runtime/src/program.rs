@@ -1,0 +1,203 @@
+//! What one method needs on a device: its pipelines, its off-screen passes, and what is drawn over its sky.
+
+use crate::layouts::Layouts;
+use crate::pipeline::{Overlay, overlay_pipeline, own_layout, pipelines};
+use crate::shader::{Build, compose};
+use crate::{Method, SkyConfig, SkyModel, fbm_map, lit_map, octaves_map, rays, shadow};
+
+/// What every program is made from.
+#[derive(Debug)]
+pub(crate) struct Common {
+    pub device: wgpu::Device,
+    pub config: SkyConfig,
+    pub build: Build,
+    pub layouts: Layouts,
+    /// The octaves of [`Method::Fbm`] as the pack has them.
+    pub fbm: wgpu::Texture,
+    /// The layers of [`Method::Lit`].
+    pub layers: wgpu::Texture,
+    /// Whether the sky is drawn on the dome's mesh.
+    pub mesh: bool,
+    /// Whether the target can be blended with.
+    pub blends: bool,
+}
+
+impl Common {
+    fn module(&self, method: Method, sky: SkyModel) -> wgpu::ShaderModule {
+        let build = Build {
+            method,
+            sky,
+            ..self.build
+        };
+        let source = wgpu::ShaderSource::Wgsl(compose(build).into());
+        let label = Some(method.name());
+        self.device
+            .create_shader_module(wgpu::ShaderModuleDescriptor { label, source })
+    }
+
+    fn pipelines(&self, module: &wgpu::ShaderModule, method: Method) -> [wgpu::RenderPipeline; 4] {
+        let own = own_layout(&self.layouts, method);
+        let (device, config) = (&self.device, &self.config);
+        pipelines(device, config, module, &self.layouts, own, self.mesh)
+    }
+
+    /// The pipeline of what is drawn over the sky; `own` is the layout of its group 1.
+    pub fn overlay(
+        &self,
+        module: &wgpu::ShaderModule,
+        own: Option<&wgpu::BindGroupLayout>,
+        overlay: &Overlay,
+    ) -> wgpu::RenderPipeline {
+        let (device, config) = (&self.device, &self.config);
+        overlay_pipeline(device, config, module, &self.layouts, own, overlay)
+    }
+}
+
+/// A method on a device.
+#[derive(Debug)]
+pub(crate) struct Program {
+    method: Method,
+    module: wgpu::ShaderModule,
+    /// Of each sky model, at its place in [`SkyModel::ALL`].
+    pub pipelines: [Option<[wgpu::RenderPipeline; 4]>; SkyModel::ALL.len()],
+    pub flare: Option<wgpu::RenderPipeline>,
+    pub map: OwnMap,
+    // What follows is made when it is first asked for.
+    shadow: Option<shadow::Pass>,
+    pub rays: Option<rays::Pass>,
+    pub rain: Option<wgpu::RenderPipeline>,
+}
+
+/// The off-screen part of a method.
+#[derive(Debug)]
+pub(crate) enum OwnMap {
+    None,
+    Octaves(Box<octaves_map::Pass>),
+    Fbm(Box<fbm_map::Pass>),
+    Lit(Box<lit_map::Pass>),
+}
+
+impl Program {
+    /// A program without a sky's pipelines; `octaves` is how many [`Method::Octaves`] sums.
+    pub fn new(common: &Common, method: Method, sky: SkyModel, octaves: u32) -> Program {
+        let (device, layouts) = (&common.device, &common.layouts);
+        let module = common.module(method, sky);
+        let flare = || common.overlay(&module, own_layout(layouts, method), &Overlay::FLARE);
+        let map = match method {
+            Method::Packed => OwnMap::None,
+            Method::Octaves => {
+                OwnMap::Octaves(octaves_map::Pass::new(device, &module, layouts, octaves).into())
+            }
+            Method::Fbm => {
+                OwnMap::Fbm(fbm_map::Pass::new(device, &module, layouts, &common.fbm).into())
+            }
+            Method::Lit => {
+                OwnMap::Lit(lit_map::Pass::new(device, &module, layouts, &common.layers).into())
+            }
+        };
+        let mut models = [const { None }; SkyModel::ALL.len()];
+        models[sky as usize] = Some(common.pipelines(&module, method));
+        Program {
+            method,
+            pipelines: models,
+            flare: common.blends.then(flare),
+            map,
+            shadow: None,
+            rays: None,
+            rain: None,
+            module,
+        }
+    }
+
+    /// Makes what is not there yet of a sky model, and the map anew if it is for another number of octaves.
+    pub fn fit(&mut self, common: &Common, sky: SkyModel, octaves: u32) {
+        let method = self.method;
+        self.pipelines[sky as usize].get_or_insert_with(|| {
+            let module = common.module(method, sky);
+            common.pipelines(&module, method)
+        });
+        if let OwnMap::Octaves(pass) = &mut self.map {
+            pass.fit(&common.device, &common.layouts, octaves);
+        }
+    }
+
+    /// Records the cloud shadows of the lit method.
+    pub fn record_shadow(
+        &mut self,
+        common: &Common,
+        encoder: &mut wgpu::CommandEncoder,
+        shared: &wgpu::BindGroup,
+    ) {
+        let new = || shadow::Pass::new(&common.device, &self.module, &common.layouts);
+        let pass = self.shadow.get_or_insert_with(new);
+        if let Some(own) = self.map.group() {
+            pass.record(encoder, shared, own);
+        }
+    }
+
+    /// Records the rays, if the target can show them.
+    pub fn record_rays(
+        &mut self,
+        common: &Common,
+        encoder: &mut wgpu::CommandEncoder,
+        shared: &wgpu::BindGroup,
+    ) {
+        if !common.blends {
+            return;
+        }
+        let (device, layouts) = (&common.device, &common.layouts);
+        let new = || {
+            let overlay = common.overlay(&self.module, Some(&layouts.texture), &Overlay::RAYS);
+            let own = own_layout(layouts, self.method);
+            rays::Pass::new(device, &self.module, layouts, own, overlay)
+        };
+        let pass = self.rays.get_or_insert_with(new);
+        pass.record(encoder, shared, self.map.group());
+    }
+
+    /// Makes what draws rain, if the target can show it.
+    pub fn fit_rain(&mut self, common: &Common) {
+        let new = || common.overlay(&self.module, None, &Overlay::RAIN);
+        if common.blends {
+            self.rain.get_or_insert_with(new);
+        }
+    }
+
+    /// The cloud shadows, if they were ever asked for.
+    pub fn shadow(&self) -> Option<&wgpu::Texture> {
+        self.shadow.as_ref().map(shadow::Pass::texture)
+    }
+
+    /// Bytes of the textures that it draws.
+    pub fn bytes(&self) -> u64 {
+        let map = match &self.map {
+            OwnMap::None => 0,
+            OwnMap::Octaves(pass) => pass.bytes(),
+            OwnMap::Fbm(pass) => pass.bytes(),
+            OwnMap::Lit(pass) => pass.bytes(),
+        };
+        let rays = self.rays.as_ref().map_or(0, rays::Pass::bytes);
+        map + rays + self.shadow().map_or(0, crate::map::texture_bytes)
+    }
+}
+
+impl OwnMap {
+    /// Group 1 of the dome.
+    pub fn group(&self) -> Option<&wgpu::BindGroup> {
+        match self {
+            OwnMap::None => None,
+            OwnMap::Octaves(pass) => Some(&pass.map.group),
+            OwnMap::Fbm(pass) => Some(&pass.map.group),
+            OwnMap::Lit(pass) => Some(&pass.group),
+        }
+    }
+
+    pub fn texture(&self) -> Option<&wgpu::Texture> {
+        match self {
+            OwnMap::None => None,
+            OwnMap::Octaves(pass) => Some(pass.map.texture()),
+            OwnMap::Fbm(pass) => Some(pass.map.texture()),
+            OwnMap::Lit(pass) => Some(pass.texture()),
+        }
+    }
+}

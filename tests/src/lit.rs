@@ -1,0 +1,158 @@
+//! Twin of lit.wgsl: the paper's equations, one function each.
+
+use glam::{Vec2, Vec3};
+use welkin_runtime::lit::{
+    AMBIENT, FINER, FINER_RELIEF, FINER_START, LEAST_STRETCH, SHADED_BY_LAYER,
+};
+use welkin_runtime::params::LAYERS_AN_ITERATION;
+use welkin_runtime::uniforms::{LitLayerUniforms, LitUniforms};
+
+use crate::clouds::{self, Inputs};
+use crate::xyz;
+
+/// Channels of the map that are read of a layer: light that falls on it, opacity, shade.
+pub const READS: usize = 3;
+/// Channels that are read of an iteration's grain: normal towards u and v, rank.
+pub const GRAIN_READS: usize = 3;
+
+/// How many channels are read in a place: those of each layer, then those of each iteration's grain.
+pub fn reads(lit: &LitUniforms) -> usize {
+    let count = count(lit);
+    READS * count + GRAIN_READS * count.div_ceil(LAYERS_AN_ITERATION)
+}
+
+fn count(lit: &LitUniforms) -> usize {
+    lit.dome[2] as usize
+}
+
+/// Distance to the oblate hemisphere along a unit direction, in its heights: where
+/// `f^2 (x^2 + z^2) + y^2 = 1` in heights, f the flattening.
+pub fn distance(lit: &LitUniforms, direction: Vec3) -> f32 {
+    let across = direction.x * direction.x + direction.z * direction.z;
+    1.0 / libm::sqrtf(lit.dome[0] * across + direction.y * direction.y)
+}
+
+/// Level of detail of a texture with one texel a height: the logarithm of the footprint's geometric mean. Of the place
+/// `t cos`, with t the distance, the derivative by the elevation is `-t^3 sin`.
+fn level(distance: f32, direction: Vec3, narrowing: f32) -> f32 {
+    let tangential = distance * narrowing;
+    let stretch = (distance * distance * direction.y).max(LEAST_STRETCH);
+    0.5 * libm::log2f((tangential * tangential * stretch).max(1e-12))
+}
+
+/// What comes through a cloud: equation 4 over L.
+pub fn through(lit: &LitUniforms, direction: Vec3) -> f32 {
+    let [k1, k2, m] = [lit.light[3], lit.towards[3], lit.ambient[3]];
+    libm::powf((k1 + k2 * direction.dot(xyz(lit.towards))).max(0.0), m)
+}
+
+/// Light of a cloud: equation 6, and that of the sky.
+pub fn light(lit: &LitUniforms, through: f32, falls: f32, shade: f32) -> Vec3 {
+    let [least, more] = AMBIENT;
+    xyz(lit.light) * ((through + falls) * shade) + xyz(lit.ambient) * (least + more * shade)
+}
+
+/// How a finer read of the pack's texture roughens the layers of an iteration.
+#[derive(Clone, Copy, Debug, Default)]
+struct Grain {
+    /// How much denser it is than most.
+    denser: f32,
+    /// What of its normal meets the sun.
+    across: f32,
+}
+
+/// A layer at a place of its dome.
+#[derive(Clone, Copy, Debug)]
+pub struct Cloud {
+    /// What of the light falls on it: equation 3 over L.
+    pub falls: f32,
+    /// Its opacity.
+    pub opacity: f32,
+    /// What other cloud of the layer leaves of the light.
+    pub shade: f32,
+}
+
+/// Every layer from the lowest to the highest, each at its place of the dome's plane and with its level of detail. The
+/// lowest of an iteration has the grain of all three.
+pub fn clouds(inputs: &Inputs, place: impl Fn(usize) -> (Vec2, f32)) -> Vec<Cloud> {
+    let mut grain = Grain::default();
+    let mut clouds = Vec::new();
+    for index in 0..count(&inputs.uniforms.lit) {
+        let (plane, level) = place(index);
+        if index % LAYERS_AN_ITERATION == 0 {
+            grain = grain_at(inputs, index, plane, level);
+        }
+        clouds.push(cloud(inputs, index, plane, level, grain));
+    }
+    clouds
+}
+
+/// Where a layer is read.
+fn uv(layer: &LitLayerUniforms, plane: Vec2) -> Vec2 {
+    let [east_u, east_v, south_u, south_v] = layer.axes;
+    Vec2::new(east_u, east_v) * plane.x
+        + Vec2::new(south_u, south_v) * plane.y
+        + Vec2::new(layer.place[0], layer.place[1])
+}
+
+/// The grain of the iteration whose lowest layer this is.
+fn grain_at(inputs: &Inputs, lowest: usize, plane: Vec2, level: f32) -> Grain {
+    let lit = &inputs.uniforms.lit;
+    let layer = &lit.layers[lowest];
+    let [facing_u, facing_v, share, _] = layer.facing;
+    if share == 0.0 {
+        return Grain::default();
+    }
+    let iteration = lowest / LAYERS_AN_ITERATION;
+    let nudges = &inputs.nudges[READS * count(lit) + GRAIN_READS * iteration..];
+    let uv = uv(layer, plane) * FINER + Vec2::from(FINER_START);
+    let [_, _, own_level, kind] = layer.sun;
+    let level = level + own_level + libm::log2f(FINER);
+    let [x, y, _, rank] = inputs.layers[kind as usize].sample(uv.to_array(), level);
+    let normal = Vec2::new(x + nudges[0], y + nudges[1]) * 2.0 - 1.0;
+    Grain {
+        denser: rank + nudges[2] - 0.5,
+        across: FINER_RELIEF * normal.dot(Vec2::new(facing_u, facing_v)),
+    }
+}
+
+fn cloud(inputs: &Inputs, index: usize, plane: Vec2, level: f32, grain: Grain) -> Cloud {
+    let layer = &inputs.uniforms.lit.layers[index];
+    let uv = uv(layer, plane).to_array();
+    let [falls, _, thin, shade] = inputs.map[index].sample(uv, level + layer.sun[2]);
+    let nudges = &inputs.nudges[index * READS..];
+    let (falls, thin) = (falls + nudges[0], thin + nudges[1]);
+    let share = layer.facing[2];
+    let opacity = thin + share * grain.denser * thin * (1.0 - thin);
+    Cloud {
+        falls: (falls + share * grain.across).max(0.0),
+        opacity: opacity.clamp(0.0, 1.0) * layer.shape[2],
+        shade: shade + nudges[2],
+    }
+}
+
+/// See [`clouds::layer`].
+pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
+    let (lit, uniforms) = (&inputs.uniforms.lit, &inputs.uniforms.clouds);
+    let distance = distance(lit, direction);
+    let plane = Vec2::new(direction.x, direction.z) * distance;
+    let level = level(distance, direction, narrowing);
+    let through = through(lit, direction);
+    let clouds = clouds(inputs, |_| (plane, level));
+    // From the lowest to the highest: each shows through those below it, and is shaded by those above it.
+    let (mut radiance, mut clear) = (Vec3::ZERO, 1.0);
+    for (index, cloud) in clouds.iter().enumerate() {
+        let above = clouds[index + 1..].iter();
+        let left: f32 = above.map(|c| 1.0 - SHADED_BY_LAYER * c.opacity).product();
+        let light = light(lit, through, cloud.falls, cloud.shade * left);
+        radiance += light * (clear * cloud.opacity);
+        clear *= 1.0 - cloud.opacity;
+    }
+    let alpha = 1.0 - clear;
+    let tint = clouds::tint(uniforms, inputs.clouds, direction);
+    let tint = Vec3::ONE.lerp(xyz(uniforms.tint), tint);
+    (
+        radiance * tint / alpha.max(1e-4),
+        alpha * clouds::clearness(uniforms, direction),
+    )
+}

@@ -1,0 +1,350 @@
+//! Cloud shadows on the ground: they are what stands before the sun, and go with the clouds.
+
+use std::f32::consts::TAU;
+
+use glam::{DVec2, Vec2, Vec3};
+use welkin_pack::role::Wrap;
+use welkin_pack::{Image, LayerKind, mapping};
+use welkin_runtime::params::MAX_LAYERS;
+use welkin_runtime::shadow::SIDE;
+use welkin_runtime::{Camera, LitLayer, LitParams, Method, Sky, SkyParams};
+use welkin_tests::film::Film;
+use welkin_tests::renderer::{Frame, Twin};
+use welkin_tests::texture::Texture;
+use welkin_tests::{gpu, pack, shadow, xyz};
+
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+
+/// Half of the sky under three layers, in a square of `extent_m`.
+fn params(time: f32, extent_m: f32) -> SkyParams {
+    SkyParams {
+        method: Method::Lit,
+        cover: 0.5,
+        time,
+        speed: 0.6,
+        sun: false,
+        stars: false,
+        shadow_extent_m: extent_m,
+        ..SkyParams::default()
+    }
+}
+
+/// A viewer on the ground, who looks towards a direction through one pixel of 1/10000 radian.
+fn viewer(place_m: Vec2, towards: Vec3) -> Camera {
+    let (azimuth, elevation) = mapping::angles_from_direction(towards.to_array());
+    let mut camera = Camera::looking(azimuth, elevation, 1e-4, [1, 1]);
+    camera.position_m = Vec3::new(place_m.x, 0.0, place_m.y);
+    camera
+}
+
+/// The shadows' texture and where it lies.
+struct Shadows {
+    texels: Vec<f32>,
+    centre_m: Vec2,
+    extent_m: f32,
+    area: [f32; 4],
+}
+
+impl Shadows {
+    fn of(sky: &Sky) -> Shadows {
+        let shadow = sky.shadow().expect("the method throws shadows");
+        assert_eq!(shadow.texture.format(), wgpu::TextureFormat::R8Unorm);
+        assert_eq!([shadow.texture.width(), shadow.texture.height()], [SIDE; 2]);
+        Shadows {
+            texels: gpu::read(shadow.texture).iter().map(|t| t[0]).collect(),
+            centre_m: shadow.centre_m.into(),
+            extent_m: shadow.extent_m,
+            area: shadow.area(),
+        }
+    }
+
+    fn at(&self, [x, y]: [u32; 2]) -> f32 {
+        self.texels[(y * SIDE + x) as usize]
+    }
+
+    /// The middle of a texel, in metres east and south.
+    fn place_m(&self, texel: [u32; 2]) -> Vec2 {
+        let [x, y] = texel.map(|i| (i as f32 + 0.5) / SIDE as f32 - 0.5);
+        self.centre_m + self.extent_m * Vec2::new(x, y)
+    }
+
+    fn texture(&self) -> Texture {
+        let image = Image {
+            width: SIDE,
+            height: SIDE,
+            channels: 1,
+            texels: self.texels.clone(),
+        };
+        Texture::from_levels(vec![image], Wrap::Clamp)
+    }
+}
+
+/// What opacities may differ by where each read of each layer is off by a step of 8-bit filtering: that step, times what
+/// the finer read makes of it, `z + s (r - 1/2) z (1 - z)`, whose slopes are at most `1 + s/2` and `s/4`.
+fn worth_of_a_step(frame: &Frame) -> f32 {
+    let lit = &frame.uniforms.lit;
+    let layers = lit.layers.iter().take(lit.dome[2] as usize);
+    layers
+        .map(|layer| 1.0 + 0.75 * layer.facing[2])
+        .sum::<f32>()
+        / 255.0
+}
+
+/// Times of the day: noon, a sun at 12 degrees, a moon.
+const LIGHTS: [(&str, f32); 3] = [("noon", 0.5), ("low sun", 0.29), ("moon", 0.06)];
+
+/// The whole of the issue: a shadow is what a viewer at its place sees before the sun.
+///
+/// Texels of 4 metres are finer than those of the clouds, and so is the viewer's pixel, so that both read the finest level
+/// of everything.
+#[test]
+fn a_shadow_is_what_clouds_hide_of_the_sun_there() {
+    let twin = Twin::new(pack::default_pack());
+    let (mut sky, mut film) = (gpu::sky(pack::default_pack(), FORMAT), Film::new());
+    for (name, time) in LIGHTS {
+        let (mut least, mut most, mut worst) = (1.0_f32, 0.0_f32, 0.0_f32);
+        for (place_m, seconds) in [
+            (Vec2::ZERO, 0.0),
+            (Vec2::new(2750.0, -1300.0), 40.0),
+            (Vec2::new(-90_000.0, 41_000.0), 7777.0),
+        ] {
+            let params = params(time, 1000.0);
+            let frame = twin.frame_without_map(&params, &viewer(place_m, Vec3::Y), seconds);
+            let towards = xyz(frame.uniforms.lit.towards);
+            assert!(towards.y > 0.0, "{name}: {towards}");
+            gpu::prepare(&mut sky, &params, &viewer(place_m, Vec3::Y), seconds);
+            let shadows = Shadows::of(&sky);
+            // Beside that: two half floats, and a byte of the shadow.
+            let bound = worth_of_a_step(&frame) + 2.0 / 1024.0 + 0.5 / 255.0;
+            for texel in [
+                [0, 0],
+                [128, 128],
+                [255, 255],
+                [17, 230],
+                [200, 51],
+                [90, 140],
+            ] {
+                let there = viewer(shadows.place_m(texel), towards);
+                let alpha = film.alpha(&params, &there, seconds)[0];
+                let (found, seen) = (shadows.at(texel), 1.0 - alpha);
+                assert!(
+                    (found - seen).abs() < bound,
+                    "{name} at {seconds} s, {texel:?}: {found}, a viewer sees {seen}, may differ by {bound}"
+                );
+                worst = worst.max((found - seen).abs() / bound);
+                (least, most) = (least.min(found), most.max(found));
+            }
+        }
+        println!("{name}: from {least:.2} to {most:.2}, off by {worst:.2} of what may be");
+        assert!(
+            most - least > 0.3,
+            "{name}: shade and light: {least} {most}"
+        );
+    }
+}
+
+/// Larger texels read coarser levels: the twin knows which.
+#[test]
+fn shadows_are_the_twins() {
+    let twin = Twin::new(pack::default_pack());
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    for (name, time) in LIGHTS {
+        for (extent_m, seconds) in [(300.0, 3.0), (8000.0, 60.0), (100_000.0, 1e5)] {
+            let params = params(time, extent_m);
+            let mut camera = Camera::looking(1.0, 0.4, 1.0, [96, 72]);
+            camera.position_m = Vec3::new(-731.0, 260.0, 5120.0);
+            gpu::prepare(&mut sky, &params, &camera, seconds);
+            let found = Shadows::of(&sky);
+            let mut frame = twin.frame_without_map(&params, &camera, seconds);
+            frame.map = gpu::read_map(&sky);
+            let expected = shadow::render(&frame.inputs());
+            let bound = worth_of_a_step(&frame) + 0.5 / 255.0;
+            let apart = found
+                .texels
+                .iter()
+                .zip(&expected)
+                .map(|(f, e)| (f - e).abs());
+            let (worst, mean) = apart.fold((0.0_f32, 0.0), |(worst, sum), apart| {
+                (worst.max(apart), sum + apart / expected.len() as f32)
+            });
+            println!("{name}, {extent_m} m: {worst}, mean {mean}, may be {bound}");
+            assert!(
+                worst < bound,
+                "{name}, {extent_m} m: {worst}, expected {bound}"
+            );
+            // Rounding is off by a quarter of a step on average, filtering by no more for each layer.
+            assert!(mean < bound / 4.0, "{name}, {extent_m} m: {mean}");
+        }
+    }
+}
+
+/// A layer of heaps alone, so that its wind is the clouds' wind.
+fn heaps() -> LitParams {
+    LitParams {
+        formation_interval_s: 86_400.0,
+        ..LitParams::with_layers(&[LitLayer::of(LayerKind::Cumulus, 1.0)])
+    }
+}
+
+#[test]
+fn shadows_move_with_the_wind() {
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    let params = SkyParams {
+        lit: heaps(),
+        ..params(0.45, 6400.0)
+    };
+    let velocity_m_s = Vec2::from(params.lit.layers[0].velocity_m_s) * params.speed;
+    let mut at = |seconds: f64| {
+        gpu::prepare(&mut sky, &params, &viewer(Vec2::ZERO, Vec3::Y), seconds);
+        Shadows::of(&sky)
+    };
+    // Whole texels of 25 metres, as near as they come.
+    let seconds = 20.0;
+    let (before, after) = (at(0.0), at(seconds));
+    let way = velocity_m_s * seconds as f32 / 25.0;
+    let apart = |moved: Vec2| {
+        let [dx, dy] = moved.round().as_ivec2().to_array();
+        let mut sum = 0.0;
+        for y in 64..192 {
+            for x in 64..192 {
+                let was = before.at([(x - dx) as u32, (y - dy) as u32]);
+                sum += (after.at([x as u32, y as u32]) - was).abs();
+            }
+        }
+        sum / 128.0 / 128.0
+    };
+    let (with, without, against) = (apart(way), apart(Vec2::ZERO), apart(-way));
+    println!(
+        "moved by {way} texels: {with:.4} with the wind, {without:.4} without, {against:.4} against it"
+    );
+    assert!(
+        way.abs().min_element() > 5.0,
+        "a way that can be told: {way}"
+    );
+    assert!(4.0 * with < without && 4.0 * with < against);
+}
+
+#[test]
+fn shadows_stay_where_they_are_as_the_viewer_walks_and_climbs() {
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    let params = params(0.4, 6400.0);
+    let mut from = |place_m: Vec3, fov_y_rad: f32| {
+        let mut camera = Camera::looking(0.3, 0.2, fov_y_rad, [64, 48]);
+        camera.position_m = place_m;
+        gpu::prepare(&mut sky, &params, &camera, 9.0);
+        Shadows::of(&sky)
+    };
+    let usual = from(Vec3::ZERO, 1.0);
+    for (place_m, fov_y_rad) in [
+        (Vec3::new(61.0, 0.0, -1234.5), 1.0),
+        (Vec3::new(0.0, 900.0, 0.0), 0.2),
+        (Vec3::new(-300.0, 20_000.0, 40.0), 2.0),
+    ] {
+        let other = from(place_m, fov_y_rad);
+        let moved = (other.centre_m - usual.centre_m) / 25.0;
+        assert_eq!(moved, moved.round(), "whole texels");
+        let [dx, dy] = moved.as_ivec2().to_array();
+        for y in 60..190 {
+            for x in 60..190 {
+                let here = usual.at([x as u32, y as u32]);
+                let there = other.at([(x - dx) as u32, (y - dy) as u32]);
+                // Reads of three layers, whose places are rounded another way.
+                assert!(
+                    (here - there).abs() < 3.1 / 255.0,
+                    "{place_m}: {here} {there}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn there_is_none_without_an_extent_or_another_methods_clouds() {
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    assert!(sky.shadow().is_none(), "before the first frame");
+    let view = viewer(Vec2::ZERO, Vec3::Y);
+    for method in Method::ALL {
+        for extent_m in [0.0, -5.0, f32::NAN, 500.0] {
+            let params = SkyParams {
+                method,
+                ..params(0.5, extent_m)
+            };
+            gpu::prepare(&mut sky, &params, &view, 0.0);
+            let expected = method == Method::Lit && extent_m > 0.0;
+            assert_eq!(sky.shadow().is_some(), expected, "{method:?} {extent_m}");
+        }
+    }
+}
+
+#[test]
+fn light_from_the_horizon_meets_no_cloud_and_a_clear_sky_throws_no_shadow() {
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    let view = viewer(Vec2::ZERO, Vec3::Y);
+    // The sun a little below the horizon, before the moon takes over; no cover; no layer.
+    let dusk = params(0.753, 4000.0);
+    let mut bare = params(0.5, 4000.0);
+    bare.lit
+        .layers
+        .iter_mut()
+        .for_each(|layer| layer.share = 0.0);
+    let clear = SkyParams {
+        cover: 0.0,
+        ..params(0.5, 4000.0)
+    };
+    for params in [dusk, bare, clear] {
+        gpu::prepare(&mut sky, &params, &view, 4.0);
+        assert!(
+            Shadows::of(&sky).texels.iter().all(|&t| t == 1.0),
+            "{params:?}"
+        );
+    }
+    let overcast = SkyParams {
+        cover: 1.0,
+        ..params(0.5, 4000.0)
+    };
+    gpu::prepare(&mut sky, &overcast, &view, 4.0);
+    assert!(
+        Shadows::of(&sky).texels.iter().all(|&t| t < 0.1),
+        "a shut sky"
+    );
+    assert_eq!(overcast.lit.layers.len(), MAX_LAYERS);
+}
+
+/// The application's own shader, by its twin: the texel's value at its middle, 1 outside, no step at the edge.
+#[test]
+fn the_applications_function_gives_texels_inside_and_1_outside() {
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    let place_m = Vec2::new(400.0, -900.0);
+    gpu::prepare(
+        &mut sky,
+        &params(0.4, 2000.0),
+        &viewer(place_m, Vec3::Y),
+        4.0,
+    );
+    let shadows = Shadows::of(&sky);
+    let map = shadows.texture();
+    let at = |place: Vec2| shadow::cloud_shadow(&map, shadows.area, place);
+    for texel in [[128, 128], [40, 60], [200, 90]] {
+        let found = at(shadows.place_m(texel));
+        assert!(
+            (found - shadows.at(texel)).abs() < 1e-3,
+            "{texel:?}: {found}"
+        );
+    }
+    let (middle, half) = (shadows.centre_m, 0.5 * shadows.extent_m);
+    for i in 0..64 {
+        let out = Vec2::from_angle(i as f32 / 64.0 * TAU) * 1.5 * half;
+        assert_eq!(at(middle + out), 1.0, "outside");
+        let edge = out / out.abs().max_element() * half;
+        assert!(
+            1.0 - at(middle + 0.9999 * edge) < 0.01,
+            "just inside the edge"
+        );
+    }
+    assert_eq!(at(DVec2::splat(1e9).as_vec2()), 1.0);
+    assert_eq!(
+        shadow::cloud_shadow(&map, [0.0; 4], Vec2::ZERO),
+        1.0,
+        "no shadows at all"
+    );
+}

@@ -1,0 +1,282 @@
+//! The skies that are compared.
+
+use glam::Vec3;
+use welkin_pack::LayerKind;
+use welkin_runtime::{
+    Camera, FbmParams, LitLayer, LitParams, Method, OctaveParams, PerezParams, PerezShape,
+    SkyModel, SkyParams,
+};
+
+pub const SIZE: [u32; 2] = [96, 72];
+
+/// A sky to compare.
+pub struct Case {
+    pub name: String,
+    pub params: SkyParams,
+    pub camera: Camera,
+    pub seconds: f64,
+}
+
+/// Azimuth and elevation of the camera are in degrees.
+fn case(name: &str, params: SkyParams, azimuth: f32, elevation: f32, seconds: f64) -> Case {
+    Case {
+        name: format!("{}_{name}", params.method.name()),
+        params: SkyParams {
+            flare: 0.0,
+            ..params
+        },
+        camera: camera(azimuth, elevation),
+        seconds,
+    }
+}
+
+pub fn camera(azimuth_deg: f32, elevation_deg: f32) -> Camera {
+    Camera::looking(
+        azimuth_deg.to_radians(),
+        elevation_deg.to_radians(),
+        1.05,
+        SIZE,
+    )
+}
+
+/// Skies that every method draws.
+fn shared_skies(method: Method) -> Vec<Case> {
+    let day = SkyParams {
+        method,
+        ..SkyParams::default()
+    };
+    let at = |time: f32, cover: f32| SkyParams { time, cover, ..day };
+    let sunset = SkyParams {
+        sunset: 0.7,
+        ..at(0.745, 0.6)
+    };
+    let overcast = SkyParams {
+        density: 0.5,
+        ..at(0.4, 0.95)
+    };
+    let late = SkyParams {
+        speed: 1.0,
+        ..at(0.5, 0.7)
+    };
+    let mut walked = case("walked", at(0.45, 0.5), 60.0, 50.0, 30.0);
+    walked.camera.position_m = Vec3::new(2750.0, 120.0, -1300.0);
+    vec![
+        case("noon", at(0.5, 0.6), 180.0, 40.0, 12.0),
+        case("sunset", sunset, 270.0, 12.0, 100.0),
+        case("twilight", at(0.77, 0.5), 270.0, 10.0, 3.0),
+        case("night", at(0.0, 0.3), 180.0, 45.0, 21.5),
+        case("overcast", overcast, 20.0, 30.0, 500.0),
+        case("shut", at(0.55, 1.0), 140.0, 15.0, 45.0),
+        case("below_the_horizon", at(0.35, 0.7), 100.0, -30.0, 0.0),
+        case("zenith", at(0.6, 0.5), 0.0, 90.0, 63.9),
+        case("late", late, 200.0, 50.0, 1e6),
+        walked,
+    ]
+}
+
+fn packed_skies() -> Vec<Case> {
+    let day = SkyParams::default();
+    let dense = SkyParams {
+        density: 1.0,
+        height: 0.0,
+        time: 0.6,
+        cover: 0.5,
+        ..day
+    };
+    let upper_layer = SkyParams {
+        upper_layer: 1.0,
+        sunset: 0.5,
+        time: 0.3,
+        cover: 0.45,
+        ..day
+    };
+    let clear_night = SkyParams {
+        time: 0.98,
+        cover: 0.0,
+        ..day
+    };
+    vec![
+        case("figure_2", SkyParams::figure_2(), 120.0, 22.0, 40.0),
+        case("figure_4", SkyParams::figure_4(), 255.0, 18.0, 0.0),
+        case("dense", dense, 330.0, 60.0, 7.0),
+        case("upper_layer", upper_layer, 80.0, 25.0, 50.0),
+        case("clear_night_zenith", clear_night, 0.0, 90.0, 63.9),
+    ]
+}
+
+fn octave_skies() -> Vec<Case> {
+    let day = SkyParams {
+        method: Method::Octaves,
+        ..SkyParams::default()
+    };
+    let with = |octaves: OctaveParams| SkyParams { octaves, ..day };
+    let usual = OctaveParams::default();
+    let storm = SkyParams {
+        cover: 0.9,
+        density: 0.9,
+        time: 0.42,
+        ..day
+    };
+    let dome = |index: usize| {
+        let mut domes = [0.0; 3];
+        domes[index] = 1.0;
+        with(OctaveParams { domes, ..usual })
+    };
+    let sharp = with(OctaveParams {
+        sharpness: 0.1,
+        ..usual
+    });
+    let six = with(OctaveParams { count: 6, ..usual });
+    vec![
+        case("storm", storm, 160.0, 25.0, 70.0),
+        case("low", dome(0), 90.0, 35.0, 8.0),
+        case("middle", dome(1), 300.0, 35.0, 8.0),
+        case("high", dome(2), 10.0, 35.0, 8.0),
+        case("sharp", sharp, 240.0, 50.0, 59.99),
+        case("six_octaves", six, 330.0, 40.0, 33.0),
+    ]
+}
+
+fn fbm_skies() -> Vec<Case> {
+    let day = SkyParams {
+        method: Method::Fbm,
+        ..SkyParams::default()
+    };
+    let storm = SkyParams {
+        cover: 0.9,
+        density: 0.9,
+        time: 0.42,
+        fbm: FbmParams::STORMY,
+        ..day
+    };
+    let sharpness = |sharpness: f32| SkyParams {
+        fbm: FbmParams {
+            sharpness,
+            lit: [1.0, 0.9, 0.6],
+            shaded: [0.2, 0.4, 0.7],
+        },
+        ..day
+    };
+    vec![
+        case("storm", storm, 160.0, 25.0, 70.0),
+        case("soft", sharpness(0.0), 90.0, 35.0, 8.0),
+        case("sharp", sharpness(0.8), 300.0, 35.0, 1234.5),
+    ]
+}
+
+fn lit_skies() -> Vec<Case> {
+    let day = SkyParams {
+        method: Method::Lit,
+        ..SkyParams::default()
+    };
+    let with = |lit: LitParams| SkyParams { lit, ..day };
+    let of = |kinds: &[LayerKind]| {
+        let layers: Vec<_> = kinds.iter().map(|&kind| LitLayer::of(kind, 1.0)).collect();
+        with(LitParams::with_layers(&layers))
+    };
+    let one = |kind: LayerKind| of(&[kind]);
+    let dome = |radius_m: f32, flattening: f32| {
+        with(LitParams {
+            radius_m,
+            flattening,
+            ..LitParams::default()
+        })
+    };
+    let light = |k1: f32, k2: f32, m: f32| {
+        with(LitParams {
+            k1,
+            k2,
+            m,
+            ..LitParams::default()
+        })
+    };
+    let fast = SkyParams {
+        speed: 0.0,
+        ..with(LitParams {
+            formation_interval_s: 1.0,
+            ..LitParams::default()
+        })
+    };
+    let at = |params: SkyParams, time: f32| SkyParams { time, ..params };
+    let mut climbed = case("climbed", dome(14_000.0, 0.3), 60.0, 50.0, 30.0);
+    climbed.camera.position_m = Vec3::new(-5200.0, 900.0, 12_345.0);
+    let six = [LayerKind::ALL, LayerKind::ALL].concat();
+    vec![
+        case(
+            "stratocumulus",
+            one(LayerKind::Stratocumulus),
+            150.0,
+            35.0,
+            8.0,
+        ),
+        case("cumulus", one(LayerKind::Cumulus), 200.0, 35.0, 8.0),
+        case("cirrus", one(LayerKind::Cirrus), 170.0, 35.0, 8.0),
+        case("six_layers", at(of(&six), 0.35), 110.0, 30.0, 25.0),
+        case("hemisphere", dome(2000.0, 1.0), 90.0, 20.0, 3.0),
+        case("flat", dome(100_000.0, 0.02), 300.0, 15.0, 3.0),
+        case("narrow", light(0.0, 1.0, 16.0), 180.0, 60.0, 0.0),
+        case("wide", light(1.0, 1.0, 0.5), 180.0, 60.0, 0.0),
+        case("none", light(0.0, 0.0, 0.5), 180.0, 60.0, 0.0),
+        case("moonlit", at(day, 0.93), 200.0, 35.0, 40.0),
+        case("moonrise", at(day, 0.8), 90.0, 12.0, 40.0),
+        case("formed", fast, 10.0, 40.0, 1e6 + 0.37),
+        climbed,
+    ]
+}
+
+/// Skies of the other model, before the clouds of a method each.
+fn perez_skies() -> Vec<Case> {
+    let of = |shape: PerezShape, turbidity: f32, time: f32| SkyParams {
+        sky: SkyModel::Perez,
+        perez: PerezParams { shape, turbidity },
+        time,
+        cover: 0.3,
+        ..SkyParams::default()
+    };
+    let preetham = |turbidity: f32, time: f32| of(PerezShape::Preetham, turbidity, time);
+    let cie = |number: u8, time: f32| of(PerezShape::Cie(number), 2.5, time);
+    let custom = PerezShape::Custom([2.0, -0.3, 20.0, -4.0, 1.0]);
+    let with = |method: Method, params: SkyParams| SkyParams { method, ..params };
+    let mut shut = preetham(2.5, 0.4);
+    shut.cover = 1.0;
+    vec![
+        case("perez_noon", preetham(2.5, 0.5), 180.0, 40.0, 12.0),
+        case("perez_clear", preetham(1.7, 0.4), 300.0, 30.0, 1.0),
+        case(
+            "perez_haze",
+            with(Method::Fbm, preetham(8.0, 0.7)),
+            250.0,
+            15.0,
+            3.0,
+        ),
+        case("perez_sunset", preetham(3.0, 0.749), 270.0, 12.0, 5.0),
+        case(
+            "perez_twilight",
+            with(Method::Octaves, preetham(2.5, 0.757)),
+            270.0,
+            15.0,
+            5.0,
+        ),
+        case("perez_night", preetham(2.5, 0.0), 180.0, 45.0, 21.5),
+        case("perez_overcast", cie(1, 0.4), 20.0, 60.0, 0.0),
+        case("perez_blue", cie(12, 0.3), 90.0, 20.0, 0.0),
+        case("perez_turbid", cie(15, 0.6), 200.0, -10.0, 0.0),
+        case("perez_custom", of(custom, 5.0, 0.55), 0.0, 90.0, 0.0),
+        case("perez_shut", shut, 140.0, 10.0, 0.0),
+    ]
+}
+
+/// Skies that every method draws, and those of every model of the clear sky.
+pub fn common_skies() -> Vec<Case> {
+    let shared = Method::ALL.into_iter().flat_map(shared_skies);
+    shared.chain(perez_skies()).collect()
+}
+
+/// Those, and what each method has of its own.
+pub fn skies() -> Vec<Case> {
+    let own = [packed_skies(), octave_skies(), fbm_skies(), lit_skies()];
+    common_skies()
+        .into_iter()
+        .chain(own.into_iter().flatten())
+        .collect()
+}

@@ -1,0 +1,87 @@
+//! The value of `--layers`: layers of clouds between commas.
+
+use welkin_pack::LayerKind;
+use welkin_runtime::params::MAX_LAYERS;
+use welkin_runtime::{LitLayer, LitParams};
+
+use super::values::of_sky;
+
+/// How it is written.
+pub const FORM: &str = "KIND[:SHARE[:HEIGHT]],...";
+
+pub fn layers_help() -> String {
+    let usual = LitParams::default().layers;
+    let usual: Vec<String> = usual
+        .iter()
+        .filter(|l| l.share > 0.0)
+        .map(written)
+        .collect();
+    format!(
+        "1 to {MAX_LAYERS} layers between commas; lower ones hide higher ones. KIND is one of {}; SHARE its part in the \
+         cover beside the other layers, 0 to 1, or else 1; HEIGHT counts in heights of the dome, 0.1 to 20, or else is the \
+         kind's [default: {}]",
+        kinds(),
+        usual.join(",")
+    )
+}
+
+fn written(layer: &LitLayer) -> String {
+    format!("{}:{}:{}", layer.kind.name(), layer.share, layer.height)
+}
+
+fn kinds() -> String {
+    LayerKind::ALL.map(LayerKind::name).join(", ")
+}
+
+/// Layers between commas, brought into the order of their heights: that is how they lie before each other.
+pub fn layers(text: &str) -> Result<[LitLayer; MAX_LAYERS], String> {
+    let mut layers = text
+        .split(',')
+        .map(|one| layer(one.trim()))
+        .collect::<Result<Vec<_>, _>>()?;
+    if layers.len() > MAX_LAYERS {
+        return Err(format!(
+            "{} layers, expected 1 to {MAX_LAYERS}",
+            layers.len()
+        ));
+    }
+    layers.sort_by(|a, b| a.height.total_cmp(&b.height));
+    Ok(LitParams::with_layers(&layers).layers)
+}
+
+fn layer(text: &str) -> Result<LitLayer, String> {
+    let mut parts = text.split(':').map(str::trim);
+    let name = parts.next().unwrap_or_default();
+    let [share, height, too_much] = [parts.next(), parts.next(), parts.next()];
+    let kind = LayerKind::from_name(name).ok_or_else(|| {
+        format!(
+            "\"{name}\" is no kind of cloud; expected one of {}",
+            kinds()
+        )
+    })?;
+    if too_much.is_some() {
+        return Err(format!(
+            "\"{text}\" has too many parts; expected KIND[:SHARE[:HEIGHT]], such as {name}:0.7:1.2"
+        ));
+    }
+    let told = |number: &str, key: &str, value: Result<f32, String>| {
+        value.map_err(|expected| format!("the {key} of {name} is \"{number}\", {expected}"))
+    };
+    let mut layer = LitLayer::of(kind, 1.0);
+    if let Some(share) = share {
+        layer.share = told(
+            share,
+            "share",
+            of_sky(share, |sky, v| sky.lit.layers[0].share = v, ""),
+        )?;
+    }
+    if let Some(height) = height {
+        let value = of_sky(
+            height,
+            |sky, v| sky.lit.layers[0].height = v,
+            " heights of the dome",
+        );
+        layer.height = told(height, "height", value)?;
+    }
+    Ok(layer)
+}

@@ -1,0 +1,199 @@
+//! The options of the weather, which is every method's.
+
+use clap::Args;
+use welkin_runtime::{Lightning, WeatherParams};
+
+use super::values::{of_sky, place_km, unit};
+
+/// Weather over clouds of any method.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Weather")]
+pub struct WeatherArgs {
+    /// Strength of the sun's rays between the clouds, 0 (off) to 1
+    #[arg(long, value_name = "R", default_value_t = WeatherParams::default().rays, value_parser = unit, allow_negative_numbers = true)]
+    pub rays: f32,
+    /// Strength of the rain, 0 (off) to 1
+    #[arg(long, value_name = "R", default_value_t = WeatherParams::default().rain, value_parser = unit, allow_negative_numbers = true)]
+    pub rain: f32,
+    /// A flash inside the clouds: its place, in kilometres to the east and to the south of the world's origin, -1000 to 1000;
+    /// the second at which it begins, or else just before --at; its strength, 0 to 1, or else 1
+    #[arg(long, value_name = LIGHTNING_FORM, value_parser = lightning, allow_hyphen_values = true)]
+    pub lightning: Option<Flash>,
+}
+
+const LIGHTNING_FORM: &str = "EAST_KM,SOUTH_KM[,START_S[,STRENGTH]]";
+
+/// A flash whose start may be left to the frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Flash {
+    place_m: [f32; 2],
+    start_s: Option<f64>,
+    strength: f32,
+}
+
+/// Seconds before the frame at which a flash begins that shall show in it: after its rise, near its brightest.
+const RISEN_S: f64 = 0.005;
+
+impl WeatherArgs {
+    /// The weather of a frame at this moment.
+    pub fn params(&self, at_s: f64) -> WeatherParams {
+        let lightning = self.lightning.map(|flash| Lightning {
+            place_m: flash.place_m,
+            start_s: flash.start_s.unwrap_or(at_s - RISEN_S),
+            strength: flash.strength,
+        });
+        WeatherParams {
+            rays: self.rays,
+            rain: self.rain,
+            lightning: lightning.unwrap_or_default(),
+        }
+    }
+}
+
+/// Two to four numbers between commas.
+fn lightning(text: &str) -> Result<Flash, String> {
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let (east, south, start, strength) = match parts[..] {
+        [east, south] => (east, south, None, "1"),
+        [east, south, start] => (east, south, Some(start), "1"),
+        [east, south, start, strength] => (east, south, Some(start), strength),
+        _ => {
+            return Err(format!(
+                "expected two to four numbers {LIGHTNING_FORM}, such as 4,-2 or 4,-2,10,0.5"
+            ));
+        }
+    };
+    let start_s = |text: &str| {
+        let value = of_sky(text, |sky, v| sky.weather.lightning.start_s = v, " seconds");
+        told("START_S", text, value)
+    };
+    let share = of_sky(strength, |sky, v| sky.weather.lightning.strength = v, "");
+    Ok(Flash {
+        place_m: [
+            1000.0 * told("EAST_KM", east, place_km(east))?,
+            1000.0 * told("SOUTH_KM", south, place_km(south))?,
+        ],
+        start_s: start.map(start_s).transpose()?,
+        strength: told("STRENGTH", strength, share)?,
+    })
+}
+
+/// The value, or which number is wrong, what it is and what was expected.
+fn told<T>(name: &str, text: &str, value: Result<T, String>) -> Result<T, String> {
+    value.map_err(|expected| format!("{name} is \"{text}\", {expected}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::cli::{Cli, Command};
+
+    use super::*;
+
+    fn read(args: &[&str]) -> Result<WeatherParams, String> {
+        let words = ["welkin-view", "render", "pack", "-o", "f.png"];
+        match Cli::read(words.iter().chain(args)).map(|cli| cli.command) {
+            Ok(Some(Command::Render(render))) => {
+                let params = render.view().params;
+                assert_eq!(params.check(), Ok(()), "{args:?}");
+                Ok(params.weather)
+            }
+            Ok(other) => panic!("{args:?}: {other:?}"),
+            Err(error) => Err(error.to_string()),
+        }
+    }
+
+    #[test]
+    fn weather_is_fair_unless_it_is_asked_for() {
+        assert_eq!(read(&[]), Ok(WeatherParams::default()));
+    }
+
+    #[test]
+    fn every_method_has_weather() {
+        for method in welkin_runtime::Method::ALL.map(welkin_runtime::Method::name) {
+            let args = [
+                "--method",
+                method,
+                "--rays",
+                "0.3",
+                "--rain",
+                "0.4",
+                "--lightning",
+                "1,2",
+            ];
+            let weather = read(&args).unwrap();
+            assert_eq!(
+                [weather.rays, weather.rain, weather.lightning.strength],
+                [0.3, 0.4, 1.0]
+            );
+        }
+    }
+
+    #[test]
+    fn lightning_strikes_where_and_when_it_is_told() {
+        let of = |text: &str| read(&["--lightning", text]).unwrap().lightning;
+        let flash = |place_m, start_s, strength| Lightning {
+            place_m,
+            start_s,
+            strength,
+        };
+        assert_eq!(of("4,-2,0"), flash([4000.0, -2000.0], 0.0, 1.0));
+        assert_eq!(of("-0.5, 2.25, 10"), flash([-500.0, 2250.0], 10.0, 1.0));
+        assert_eq!(of("-1000,1000,-3.5,0.25"), flash([-1e6, 1e6], -3.5, 0.25));
+        assert_eq!(of("0,0,1e9,0").start_s, 1e9);
+    }
+
+    #[test]
+    fn a_flash_without_a_start_shows_in_the_frame() {
+        for at in ["0", "3.5", "1e9"] {
+            let flash = read(&["--lightning", "4,-2", "--at", at])
+                .unwrap()
+                .lightning;
+            assert_eq!(flash.strength, 1.0);
+            let shown = welkin_runtime::lightning::brightness(&flash, at.parse().unwrap());
+            let later = welkin_runtime::lightning::brightness(&flash, flash.start_s + 0.5);
+            // As bright as a flash of this strength gets, but for its rise, and far from its end.
+            assert!(shown > 0.5 && shown > 2.0 * later, "{shown} {later}");
+        }
+    }
+
+    #[test]
+    fn lightning_that_is_nowhere_or_never_is_refused_with_what_was_found_and_expected() {
+        for (text, told) in [
+            (
+                "",
+                "expected two to four numbers EAST_KM,SOUTH_KM[,START_S[,STRENGTH]]",
+            ),
+            ("4", "expected two to four numbers"),
+            ("1,2,3,1,5", "expected two to four numbers"),
+            (
+                "1001,0",
+                "EAST_KM is \"1001\", expected a number from -1000 to 1000 kilometres",
+            ),
+            (
+                "0,-1000.5",
+                "SOUTH_KM is \"-1000.5\", expected a number from -1000 to 1000 kilometres",
+            ),
+            (",", "EAST_KM is \"\", expected a number"),
+            ("0,nan", "SOUTH_KM is \"nan\", expected a number"),
+            (
+                "0,0,soon",
+                "START_S is \"soon\", expected a number from -1000000000 to 1000000000 seconds",
+            ),
+            ("0,0,inf", "START_S is \"inf\", expected a number"),
+            (
+                "0,0,0,1.5",
+                "STRENGTH is \"1.5\", expected a number from 0 to 1",
+            ),
+            (
+                "0,0,0,-1",
+                "STRENGTH is \"-1\", expected a number from 0 to 1",
+            ),
+        ] {
+            let error = read(&["--lightning", text]).unwrap_err();
+            assert!(
+                error.contains("--lightning") && error.contains(told),
+                "{text}: {error}"
+            );
+        }
+    }
+}
