@@ -11,7 +11,7 @@ SKYBOX_PACK := packs/skybox
 FRAME := --size 1280x720
 
 # The three skies that every method draws.
-METHODS := packed octaves fbm
+METHODS := packed octaves fbm lit
 NOON := --time 0.45 --azimuth 100 --elevation 28
 SUNSET := --time 0.742 --sunset 1 --cover 0.62 --height 0.6 --azimuth 270 --elevation 20
 STORM := --time 0.42 --cover 0.92 --density 0.75 --azimuth 40 --elevation 25
@@ -19,7 +19,7 @@ STORM := --time 0.42 --cover 0.92 --density 0.75 --azimuth 40 --elevation 25
 # Mesa's device selection complains of a desktop session that is not there; without it, nothing is lost.
 export NODEVICE_SELECT := 1
 
-.PHONY: help sky test check bench tools gpu-tools node-tools clean
+.PHONY: help sky gallery test check bench tools gpu-tools node-tools clean
 
 help: ## Say what can be made
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
@@ -37,6 +37,11 @@ sky: gpu-tools ## Bake the default pack, check it, and draw pictures of every me
 	$(VIEW) render $(PACK) -o out/packed-storm.png $(FRAME) --method packed $(STORM)
 	$(VIEW) render $(PACK) -o out/octaves-storm.png $(FRAME) --method octaves $(STORM)
 	$(VIEW) render $(PACK) -o out/fbm-storm.png $(FRAME) --method fbm --palette stormy $(STORM)
+	$(VIEW) render $(PACK) -o out/lit-storm.png $(FRAME) --method lit $(STORM)
+	$(VIEW) render $(PACK) -o out/moonlight.png $(FRAME) --method lit --time 0.03 --cover 0.5 --azimuth 200 --elevation 34
+	$(VIEW) render $(PACK) -o out/rays.png $(FRAME) --method fbm --time 0.72 --cover 0.7 --azimuth 252 --elevation 12 --at 60 --rays 1
+	$(VIEW) render $(PACK) -o out/rain.png $(FRAME) --method lit --time 0.42 --cover 1 --density 0.6 --azimuth 40 --elevation 15 --rain 0.8
+	$(VIEW) render $(PACK) -o out/lightning.png $(FRAME) --method lit --time 0.8 --cover 0.95 --density 0.6 --azimuth 40 --elevation 22 --at 10.02 --lightning 2,-2.5,10
 	$(VIEW) render $(PACK) -o out/figure2.png $(FRAME) --cover 0.69 --height 1.0 --density 0 --sunset 0.72 --speed 0.1 --time 0.35 --azimuth 130 --elevation 28 --flare 0
 	$(VIEW) render $(PACK) -o out/figure4.png $(FRAME) --cover 0.57 --height 0.52 --density 0.84 --sunset 0.43 --speed 0 --time 0.72 --azimuth 250 --elevation 26 --flare 0
 	$(VIEW) render $(PACK) -o out/night.png $(FRAME) --time 0 --cover 0.35 --azimuth 72 --elevation 42 --fov 75
@@ -48,6 +53,24 @@ sky: gpu-tools ## Bake the default pack, check it, and draw pictures of every me
 	$(WELKIN) check $(SKYBOX_PACK)
 	$(VIEW) render $(SKYBOX_PACK) -o out/skybox.png $(FRAME) --method fbm --cover 0.4 --time 0.4 --azimuth 50 --elevation 22
 	@echo "pictures are in out/, the packs are in packs/"
+
+# Clouds of the lit method: how many, of how many layers, of which kind, in which light.
+LIT := --size 480x270 --method lit --elevation 24 --fov 60 --flare 0
+LIT_LOW_SUN := --time 0.725 --azimuth 254
+gallery: sky ## Draw the pictures of docs/lit.md into out/lit/
+	mkdir -p out/lit
+	for oktas in 0 2 4 6 8; do \
+	  for layers in "one --layers stratocumulus" "three"; do \
+	    set -- $$layers; name=$$1; shift; \
+	    $(VIEW) render $(PACK) -o out/lit/$$name-noon-$$oktas.png $(LIT) $$@ --oktas $$oktas --time 0.48 --azimuth 120; \
+	    $(VIEW) render $(PACK) -o out/lit/$$name-low-sun-$$oktas.png $(LIT) $$@ --oktas $$oktas $(LIT_LOW_SUN); \
+	    $(VIEW) render $(PACK) -o out/lit/$$name-night-$$oktas.png $(LIT) $$@ --oktas $$oktas --time 0.03 --azimuth 200; \
+	  done; \
+	done
+	for kind in stratocumulus cumulus cirrus; do \
+	  $(VIEW) render $(PACK) -o out/lit/$$kind-noon.png $(LIT) --layers $$kind --oktas 4 --time 0.48 --azimuth 120; \
+	  $(VIEW) render $(PACK) -o out/lit/$$kind-low-sun.png $(LIT) --layers $$kind --oktas 4 $(LIT_LOW_SUN); \
+	done
 
 test: gpu-tools node-tools ## Run every test, and formatting, lints and docs without a warning
 	$(CARGO) fmt --all --check
