@@ -37,7 +37,7 @@ impl Texture {
     pub fn from_levels(levels: Vec<Image>, wrap: Wrap) -> Texture {
         let texels = levels.iter().map(|image| {
             let four = |texel: &[f32]| [0, 1, 2, 3].map(|i| texel.get(i).copied().unwrap_or(0.0));
-            let each = image.texels.chunks_exact(image.channels as usize);
+            let each = image.texels.chunks_exact(image.channels);
             each.map(four).collect()
         });
         Texture {

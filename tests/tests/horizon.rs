@@ -88,11 +88,11 @@ fn there_is_no_edge_however_near_one_looks() {
                     .map(|(below, above)| (*above - *below, *above))
                     .collect::<Vec<_>>()
             });
-            for column in 0..WIDTH as usize {
-                let [wide, near, nearest] = [0, 1, 2].map(|i: usize| steps[i][column].0);
+            for (column, &(nearest, above)) in steps[2].iter().enumerate() {
+                let [wide, near] = [0, 1].map(|i: usize| steps[i][column].0);
                 let edge = (wide - 6.0 * near + 8.0 * nearest).abs() / 3.0;
                 // Each of the steps is off by two half floats; and what 32 bits leave of the dark.
-                let bound = steps[2][column].1 * (2.0 * 15.0 / 3.0 * HALF) + 1e-6;
+                let bound = above * (2.0 * 15.0 / 3.0 * HALF) + 1e-6;
                 let share = (edge / bound).max_element();
                 worst = worst.max(share);
                 assert!(
@@ -120,11 +120,11 @@ fn the_step_over_the_horizon_is_one_among_others() {
     for params in skies() {
         for azimuth in AZIMUTHS {
             let rows = strip(&mut sky, &params, azimuth, pitch, 2 * half as u32);
-            for column in 0..WIDTH as usize {
+            for (column, &here) in rows[half].iter().enumerate() {
                 let step = |i: usize| (rows[i + 1][column] - rows[i][column]).abs();
                 let above = (half..2 * half - 1).map(step).fold(Vec3::ZERO, Vec3::max);
                 let below = step(half - 2);
-                let noise = rows[half][column] * (4.0 * HALF) + 1e-6;
+                let noise = here * (4.0 * HALF) + 1e-6;
                 let bound = 1.37 * above + below_share * below + noise;
                 let share = (step(half - 1) / bound).max_element();
                 worst = worst.max(share);

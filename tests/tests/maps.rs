@@ -175,7 +175,6 @@ fn assert_layers_agree(cases: &[(SkyParams, f64)]) {
                 sum += off;
             }
             let mean = sum / bounds.texels.len() as f32;
-            println!("{what}: {worst:.3} at most, {mean:.3} on average");
             // Rounding is off by a quarter of its step on average.
             assert!(
                 worst <= 1.0 && mean <= 0.25,
