@@ -15,7 +15,7 @@ fn rain_is_the_twins() {
         ("level", 0.3, 0.1, 0.0, 1.0, 3.0),
         ("seam", 0.0, 0.2, 0.7, 0.6, 77.7),
         ("up", 1.0, 1.2, 0.3, 1.0, 1e5),
-        ("down", 2.0, -1.3, 1.0, 0.3, -12.0),
+        ("down", 2.0, -1.3, 1.0, 0.6, -12.0),
         ("late", 5.0, 0.4, 0.2, 0.9, 1e7),
     ] {
         let off = SkyParams {
@@ -29,7 +29,7 @@ fn rain_is_the_twins() {
         let frame = twin.frame_without_map(&params, &view, seconds);
         let own = frame.uniforms.rain;
         // A GPU's arc tangent is off by 4096 units in the last place (Vulkan's precision of `atan2`), so columns by
-        // 2^-12 of 960 at most; in truth by a hundredth of that. Half of a streak's width is a tenth of a column and more.
+        // 2^-12 of 820 at most; in truth by a hundredth of that. Half of a streak's width is a tenth of a column and more.
         let over = |ray: Vec3| rain::over(&own, ray);
         let [expected, bounds] = overlaid(&frame, &without, over, [own.streak, own.haze], 0.015);
         assert_near(&format!("rain_{name}"), &expected, &actual, &bounds, 0.05);
@@ -66,7 +66,7 @@ fn streaks(seconds: f64) -> Vec<f32> {
 
 #[test]
 fn rain_falls() {
-    // In 10 ms the farthest cylinder falls 65 mm in 12 m, the nearest 81 mm in 1.2 m: 2.6 to 32 pixels of 0.0021 radian.
+    // In 10 ms the farthest cylinder falls 65 mm in 9 m, the nearest 81 mm in 1.6 m: 3.4 to 24 pixels of 0.0021 radian.
     let (before, after) = (streaks(5.0), streaks(5.01));
     let moved = |by: i32| -> f32 {
         let rows = 50..142;
@@ -81,7 +81,7 @@ fn rain_falls() {
         .unwrap_or(0) as i32
         - 40;
     println!("best moved down by {best} pixels");
-    assert!((2..=33).contains(&best), "{best}: {found:?}");
+    assert!((3..=25).contains(&best), "{best}: {found:?}");
     let up: f32 = found[..38].iter().sum();
     let down: f32 = found[43..].iter().sum();
     assert!(down > up, "{down} {up}");
