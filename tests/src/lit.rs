@@ -156,3 +156,50 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
         alpha * clouds::clearness(uniforms, direction),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f32::consts::TAU;
+
+    use welkin_runtime::frame::Facts;
+    use welkin_runtime::{Camera, Method, SkyParams};
+
+    use super::*;
+    use crate::{lit_map, pack};
+
+    /// A shut sky's horizon is the twin's cloud where every channel has its mean, averaged around the horizon.
+    #[test]
+    fn a_shut_sky_far_away_is_the_mean_cloud() {
+        let facts = Facts::new(pack::default_pack()).expect("the pack has every role");
+        let camera = Camera::looking(0.0, 0.3, 1.0, [64, 64]);
+        for (time, density) in [(0.5, 0.0), (0.3, 0.6), (0.0, 1.0)] {
+            let params = SkyParams {
+                method: Method::Lit,
+                cover: 1.0,
+                density,
+                time,
+                ..Default::default()
+            };
+            let uniforms = facts.uniforms(&params, &camera, 0.0, 0.0);
+            let lit = &uniforms.lit;
+            let [falls, _, _, shade] =
+                lit_map::texel(lit, &lit.layers[0], &[[0.5; 4]; lit_map::PLACES]);
+            let count = 360;
+            let mean = (0..count)
+                .map(|i| {
+                    let (south, east) = (TAU * i as f32 / count as f32).sin_cos();
+                    let through = through(lit, Vec3::new(east, 0.0, south));
+                    light(lit, through, falls, shade) / count as f32
+                })
+                .sum::<Vec3>();
+            let found = xyz(uniforms.sky.overcast);
+            // The runtime takes few azimuths, which is exact up to the sixteenth power of a cosine.
+            let apart = (found - mean).abs();
+            assert!(
+                apart.cmple(mean * 1e-3).all(),
+                "{time} {density}: {found}, {mean}"
+            );
+            assert_eq!(uniforms.sky.overcast[3], 1.0);
+        }
+    }
+}

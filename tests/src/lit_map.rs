@@ -8,7 +8,7 @@ use welkin_runtime::uniforms::{LitLayerUniforms, LitUniforms};
 use crate::texture::{Texture, mix, smoothstep};
 
 /// Places on the way towards the sun, with the one that is shaded.
-const PLACES: usize = STEPS as usize + 1;
+pub(crate) const PLACES: usize = STEPS as usize + 1;
 
 /// Level 0 of each layer in use, not rounded: light that falls on the cloud, amount, opacity, shade. `kinds` are the pack's layers.
 pub fn render(lit: &LitUniforms, kinds: &[Texture]) -> Vec<Image> {
@@ -161,7 +161,12 @@ fn blend(layer: &LitLayerUniforms, kind: &Texture, [u, v]: [f32; 2], level: f32)
     mix(here, other, WEIGHTS[1])
 }
 
-fn texel(lit: &LitUniforms, layer: &LitLayerUniforms, reads: &[[f32; 4]; PLACES]) -> [f32; 4] {
+/// What the blended reads of a place, and of those towards the sun, make of a texel.
+pub(crate) fn texel(
+    lit: &LitUniforms,
+    layer: &LitLayerUniforms,
+    reads: &[[f32; 4]; PLACES],
+) -> [f32; 4] {
     let [cut, to_opaque, _, deepening] = layer.shape;
     let [x, y, _, rank] = reads[0];
     let amount = even(rank);

@@ -3,6 +3,8 @@
 //! In a pack without the light of the sky a picture holds `alpha F` alone (equation 6), and light that comes through
 //! (equation 4) is switched off by k1 = k2 = 0 and is 1 with k1 = 1: quotients of pictures leave single terms.
 
+use std::sync::OnceLock;
+
 use glam::{Vec2, Vec3};
 use welkin_pack::{Image, LayerKind, Pack, mapping};
 use welkin_runtime::frame::Facts;
@@ -14,6 +16,12 @@ use welkin_tests::{camera, gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 const SIZE: [u32; 2] = [96, 96];
+
+/// The default clouds and nothing but what sun or moon make of them.
+fn lit_alone() -> &'static Pack {
+    static PACK: OnceLock<Pack> = OnceLock::new();
+    PACK.get_or_init(|| pack::lit_alone(|_, _| {}))
+}
 
 /// What a half float may be off by, over itself.
 const HALF: f32 = 1.0 / 2048.0;
@@ -83,8 +91,8 @@ fn quotients(a: &[f32], b: &[f32], c: &[f32]) -> Vec<Option<[f32; 2]>> {
 /// With the same m the shade is the same, and the difference to k1 = k2 = 0 is `LS SH`.
 #[test]
 fn what_comes_through_rises_towards_the_sun_as_equation_4_says() {
-    let pack = pack::lit_alone(|_, _| {});
-    let mut sky = gpu::sky(&pack, FORMAT);
+    let pack = lit_alone();
+    let mut sky = gpu::sky(pack, FORMAT);
     let three = SkyParams {
         lit: LitParams::default(),
         ..one(LayerKind::Stratocumulus)
@@ -95,11 +103,11 @@ fn what_comes_through_rises_towards_the_sun_as_equation_4_says() {
         (three, 0.71),
     ] {
         let params = SkyParams { time, ..params };
-        let towards = sun(&pack, time);
+        let towards = sun(pack, time);
         let (azimuth, _) = mapping::angles_from_direction(towards.to_array());
         for (away, m) in [(0.0, 1.0), (1.5, 3.0), (3.1, 0.5)] {
             let view = Camera::looking(azimuth + away, 0.8, 1.4, SIZE);
-            let directions = directions(&pack, &view);
+            let directions = directions(pack, &view);
             let mut draw =
                 |k1: f32, k2: f32| draw(&mut sky, &with(&params, [k1, k2, m]), &view, 9.0);
             let (none, all) = (draw(0.0, 0.0), draw(1.0, 0.0));
@@ -239,14 +247,14 @@ const MOMENTS: [f64; 5] = [0.0, 700.0, 1500.0, 2300.0, 4000.0];
 /// all sides alike, so that a rim is not brighter for being nearer to the sun on the screen.
 #[test]
 fn rims_towards_the_sun_are_brighter_than_those_that_face_away() {
-    let pack = pack::lit_alone(|_, _| {});
-    let (mut film, mut sky) = (Film::new(), gpu::sky(&pack, FORMAT));
+    let pack = lit_alone();
+    let (mut film, mut sky) = (Film::new(), gpu::sky(pack, FORMAT));
     for kind in [LayerKind::Stratocumulus, LayerKind::Cumulus] {
         for time in [0.29, 0.71] {
             let params = SkyParams { time, ..one(kind) };
             let params = with(&params, [0.55, 0.0, params.lit.m]);
             let rays = overhead(1.8).rays();
-            let towards = sun(&pack, time);
+            let towards = sun(pack, time);
             let way = Vec2::new(towards.dot(rays.right), -towards.dot(rays.up)).normalize();
             for seconds in MOMENTS {
                 let seen = look(&mut film, &mut sky, &params, seconds);
@@ -263,8 +271,8 @@ fn rims_towards_the_sun_are_brighter_than_those_that_face_away() {
 
 #[test]
 fn thick_middles_are_darker_than_thin_edges() {
-    let pack = pack::lit_alone(|_, _| {});
-    let (mut film, mut sky) = (Film::new(), gpu::sky(&pack, FORMAT));
+    let pack = lit_alone();
+    let (mut film, mut sky) = (Film::new(), gpu::sky(pack, FORMAT));
     for kind in [LayerKind::Stratocumulus, LayerKind::Cumulus] {
         for density in [0.2, 0.8] {
             let params = SkyParams {
@@ -383,5 +391,69 @@ fn shade_is_blurred_towards_the_sun() {
                 "time {time}, axis {axis}: {found}, expected {expected} within {bound}"
             );
         }
+    }
+}
+
+/// The light on clouds: first the sun's, ever redder as it sets, then the moon's from the other side.
+#[test]
+fn the_sun_sets_red_and_the_moon_takes_over() {
+    let pack = pack::default_pack();
+    let at = |time: f32, moon: f32| {
+        let mut params = one(LayerKind::Stratocumulus);
+        (params.time, params.lit.moon) = (time, moon);
+        let lit = uniforms(pack, &params);
+        let [red, green, blue, _] = lit.light;
+        let towards = Vec3::new(lit.towards[0], lit.towards[1], lit.towards[2]);
+        (Vec3::new(red, green, blue), towards)
+    };
+    let mut last = 0.0;
+    // Below 6 degrees the clouds' own air mass ends the reddening.
+    for time in [0.5, 0.6, 0.66, 0.7, 0.72] {
+        let (light, towards) = at(time, 1.0);
+        assert!((towards - sun(pack, time)).length() < 1e-6, "time {time}");
+        let redness = light.x / light.z;
+        assert!(redness > last, "time {time}: {light}");
+        last = redness;
+    }
+    let (full, towards) = at(0.0, 1.0);
+    assert!((towards + sun(pack, 0.0)).length() < 1e-6 && towards.y > 0.0);
+    assert!(full.min_element() > 0.0);
+    assert!((at(0.0, 0.5).0 * 2.0 - full).abs().max_element() < 1e-6);
+    assert_eq!(at(0.0, 0.0).0, Vec3::ZERO);
+    assert_eq!(at(0.5, 1.0), at(0.5, 0.0), "no moon by day");
+    // Nothing is lit while the light goes over to the other side of the sky: a step of sin x = 0.0031 along its rise over 0.14
+    // makes 3 x^2 = 0.0015 of it.
+    for step in 0..2000 {
+        let [before, after] = [step, step + 1].map(|i| at(i as f32 / 2000.0, 1.0));
+        let turned = before.1.dot(after.1) < 0.0;
+        let lit = before.0.max(after.0);
+        assert!(
+            !turned || lit.cmple(full * 0.002).all(),
+            "step {step}: {lit}"
+        );
+    }
+}
+
+/// By night too, clouds in a picture have the light that the moon gives: half a moon, half the light.
+#[test]
+fn the_moon_lights_clouds() {
+    let mut sky = gpu::sky(lit_alone(), FORMAT);
+    let mut lit_by = |moon: f32| {
+        let mut params = SkyParams {
+            time: 0.0,
+            ..one(LayerKind::Stratocumulus)
+        };
+        params.lit.moon = moon;
+        draw(&mut sky, &params, &overhead(1.0), 5.0)
+    };
+    let [none, half, full] = [0.0, 0.5, 1.0].map(&mut lit_by);
+    assert!(
+        none.iter().all(|light| *light == 0.0),
+        "no light but the moon's"
+    );
+    assert!(full.iter().any(|light| *light > 0.03), "the moon shines");
+    for (half, full) in half.iter().zip(&full) {
+        let off = HALF * (2.0 * half + full) + LEAST_HALF;
+        assert!((2.0 * half - full).abs() <= off, "{half} {full}");
     }
 }
