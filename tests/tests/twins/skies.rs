@@ -217,7 +217,7 @@ fn lit_skies() -> Vec<Case> {
         case("narrow", light(0.0, 1.0, 16.0), 180.0, 60.0, 0.0),
         case("wide", light(1.0, 1.0, 0.5), 180.0, 60.0, 0.0),
         case("none", light(0.0, 0.0, 0.5), 180.0, 60.0, 0.0),
-        case("moonlit", at(day, 0.93), 200.0, 35.0, 40.0),
+        case("moonlit", at(day, 0.93), 140.0, 45.0, 40.0),
         case("moonrise", at(day, 0.8), 90.0, 12.0, 40.0),
         case("formed", fast, 10.0, 40.0, 1e6 + 0.37),
         climbed,
