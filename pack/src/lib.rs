@@ -4,6 +4,7 @@
 mod build;
 pub mod check;
 pub mod error;
+pub mod field;
 pub mod format;
 pub mod image;
 pub mod ktx;
@@ -30,11 +31,12 @@ pub mod texel;
 pub mod texture;
 
 pub use error::PackError;
+pub use field::Field;
 pub use format::{Format, Shape};
 pub use image::Image;
 pub use layer_kind::LayerKind;
 pub use manifest::Manifest;
-pub use mapping::FlareCell;
+pub use mapping::{FlareCell, SheetCell, SheetKind};
 pub use pack::Pack;
 #[cfg(feature = "write")]
 pub use pack::{Overwrite, PackInfo, Source};

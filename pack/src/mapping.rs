@@ -5,11 +5,13 @@
 
 mod cube;
 mod flares;
+mod sheet;
 
 use std::f32::consts::SQRT_2;
 
 pub use cube::{cube_texel, cube_to_direction, direction_to_cube};
 pub use flares::FlareCell;
+pub use sheet::{SheetCell, SheetKind};
 
 /// Azimuth (from north towards east) and elevation, both in radians, to a unit direction.
 pub fn direction_from_angles(azimuth_rad: f32, elevation_rad: f32) -> [f32; 3] {
