@@ -35,3 +35,15 @@ fn finish(radiance: vec3f, pixel: vec2f) -> vec4f {
     let root = display * inverseSqrt(max(display, vec3f(1e-6)));
     return vec4f(display + step * (2.0 * root + abs(step)), 1.0);
 }
+
+// The same without dither: what a frame has of one colour can be told once.
+fn finish_undithered(radiance: vec3f) -> vec3f {
+    if OUTPUT == OUTPUT_RADIANCE {
+        return radiance;
+    }
+    let display = tone_curve(radiance * uniforms.tonemap.display.x);
+    if OUTPUT == OUTPUT_ENCODED {
+        return srgb_encode(display);
+    }
+    return display;
+}

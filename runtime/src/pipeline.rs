@@ -171,15 +171,14 @@ impl Overlay {
         topology: wgpu::PrimitiveTopology::TriangleStrip,
         behind: wgpu::BlendFactor::One,
     };
-    /// Rays lie over what is behind them.
-    pub const RAYS: Overlay = Overlay::over("fs_rays");
-    /// And so does rain.
-    pub const RAIN: Overlay = Overlay::over("fs_rain");
+    /// Rays lie over what is behind them: a triangle over the screen.
+    pub const RAYS: Overlay = Overlay::over(["vs_screen", "fs_rays"]);
+    /// And so does rain: two triangles a drop.
+    pub const RAIN: Overlay = Overlay::over(["vs_rain", "fs_rain"]);
 
-    /// A triangle over the screen.
-    const fn over(fragment: &'static str) -> Overlay {
+    const fn over(entries: [&'static str; 2]) -> Overlay {
         Overlay {
-            entries: ["vs_screen", fragment],
+            entries,
             topology: wgpu::PrimitiveTopology::TriangleList,
             behind: wgpu::BlendFactor::OneMinusSrcAlpha,
         }

@@ -4,7 +4,7 @@ use super::{ParamError, Ranged};
 
 /// Weather over the clouds of any method; all of it off by default.
 ///
-/// Rays and rain want a target that can be blended with, which 32-bit floats mostly cannot: on such a one they are left out. What
+/// Rays and streaks of rain want a target that can be blended with, which 32-bit floats mostly cannot: on such a one they are left out. What
 /// draws them is made when they first show; an application that must not wait then prepares a frame with them while it loads.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WeatherParams {
