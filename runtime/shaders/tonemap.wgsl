@@ -16,9 +16,9 @@ fn srgb_encode(linear: vec3f) -> vec3f {
 }
 
 // Interleaved gradient noise, -0.5..0.5: J. Jimenez, "Next Generation Post Processing in Call of Duty:
-// Advanced Warfare", SIGGRAPH 2014.
+// Advanced Warfare", SIGGRAPH 2014. `pixel` is the middle of a pixel: a half less is its number, without rounding.
 fn dither_noise(pixel: vec2f) -> f32 {
-    return fract(52.9829189 * fract(dot(floor(pixel), vec2f(0.06711056, 0.00583715)))) - 0.5;
+    return fract(52.9829189 * fract(dot(pixel - 0.5, vec2f(0.06711056, 0.00583715)))) - 0.5;
 }
 
 fn finish(radiance: vec3f, pixel: vec2f) -> vec4f {
