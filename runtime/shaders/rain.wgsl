@@ -3,7 +3,7 @@ struct RainUniforms {
     right: vec4f,   // xyz: unit vector across the fall; w: share of the drops that are there
     up: vec4f,      // xyz: unit vector against the fall; w: a pixel in the middle of the screen, in radians
     forward: vec4f, // xyz: the third one
-    sight: vec4f,   // x: first column in sight; y: how many; z: 1 if the frame has haze or a flash
+    sight: vec4f,   // x: first column in sight; y: how many
     streak: vec4f,  // rgb: radiance of a streak
     haze: vec4f,    // rgb: radiance of the haze; w: its opacity at the horizon
     // Of each kind of drop, from the nearest. x, y: how often it has fallen the whole height, fraction and whole part; z: least radius;

@@ -26,8 +26,7 @@ fn fs_sky(in: Varyings) -> @location(0) vec4f {
     if !ASK_OPAQUE || clouds.a < 1.0 {
         radiance = mix(behind_clouds(direction, in.position.xy), clouds.rgb, clouds.a);
     }
-    // One question for all weather: mostly there is none.
-    if uniforms.rain.sight.z > 0.0 {
+    if WEATHER {
         if uniforms.lightning.light.g > 0.0 {
             radiance += lightning_light(direction, clouds);
         }

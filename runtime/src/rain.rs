@@ -98,10 +98,8 @@ pub fn uniforms(
     flash: &LightningUniforms,
 ) -> RainUniforms {
     let amount = params.weather.rain;
-    let mut rain = RainUniforms::default();
     if amount == 0.0 {
-        rain.sight[2] = f32::from(u8::from(flash.light[1] > 0.0));
-        return rain;
+        return RainUniforms::default();
     }
     let [east, south] = WIND_M_S.map(|wind| wind * f64::from(params.speed));
     let up = DVec3::new(-east, AXIS_FALL_M_S, -south).normalize();
@@ -120,7 +118,7 @@ pub fn uniforms(
         right: vec4(axes[0], amount.sqrt()),
         up: vec4(axes[1], view.pixel_rad),
         forward: vec4(axes[2], 0.0),
-        sight: [first as f32, count as f32, 1.0, 0.0],
+        sight: [first as f32, count as f32, 0.0, 0.0],
         streak: vec4(1.3 * ambient + 0.45 * sun + lit_streaks, 0.0),
         haze: vec4(0.8 * ambient + 0.15 * sun + lit_haze, HAZE * amount),
         places: RAIN.map(|own| place(&own, view.seconds)),
@@ -290,30 +288,5 @@ mod tests {
             }
         }
         assert!(fewest < COLUMNS / 20, "{fewest}: narrow views show few");
-    }
-
-    #[test]
-    fn a_flash_without_rain_has_no_drops_and_is_asked_for() {
-        let view = CloudView {
-            texels: 512,
-            pixel_rad: 1e-3,
-            seconds: 0.0,
-            place_m: DVec3::ZERO,
-        };
-        for (green, asked) in [(0.0, 0.0), (0.5, 1.0)] {
-            let flash = LightningUniforms {
-                light: [0.0, green, 0.0, 0.0],
-                ..Default::default()
-            };
-            let rain = uniforms(
-                &SkyParams::default(),
-                &view,
-                &level().rays(),
-                &CloudUniforms::default(),
-                &LitUniforms::default(),
-                &flash,
-            );
-            assert_eq!((rain.sight[2], vertices(&rain)), (asked, 0));
-        }
     }
 }

@@ -212,13 +212,18 @@ impl Sky {
         if rays {
             program.record_rays(&self.common, encoder, &self.shared);
         }
+        let variant = Variant::of(&uniforms);
+        // A flash that is told is made ready for before it begins.
+        if variant.weather || params.weather.lightning.strength > 0.0 {
+            program.fit_sky(&self.common, params.sky, true);
+        }
         if rain > 0 {
             program.fit_rain(&self.common);
         }
         self.prepared = Some(Prepared {
             method: params.method,
             sky: params.sky,
-            variant: Variant::of(&uniforms),
+            variant,
             rays,
             rain,
             flare: uniforms.flares.light[0] > 0.0,
@@ -233,14 +238,14 @@ impl Sky {
         let Some((prepared, program)) = self.current() else {
             return;
         };
-        let Some(pipelines) = &program.pipelines[prepared.sky as usize] else {
+        let Some(pipeline) = program.pipeline(prepared.sky, prepared.variant) else {
             return;
         };
         pass.set_bind_group(0, &self.shared, &[]);
         if let Some(group) = program.map.group() {
             pass.set_bind_group(1, group, &[]);
         }
-        pass.set_pipeline(&pipelines[prepared.variant.index()]);
+        pass.set_pipeline(pipeline);
         match &self.dome {
             None => pass.draw(0..3, 0..1),
             Some(dome) => {

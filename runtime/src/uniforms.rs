@@ -263,7 +263,7 @@ pub struct RayUniforms {
     pub dark: [f32; 4],
 }
 
-/// Rain. Without it all are 0, but for `sight` in a flash.
+/// Rain, all 0 without.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct RainUniforms {
@@ -273,7 +273,7 @@ pub struct RainUniforms {
     pub up: [f32; 4],
     /// xyz: the third one.
     pub forward: [f32; 4],
-    /// x: first column in sight; y: how many; z: 1 if the frame has haze or a flash.
+    /// x: first column in sight; y: how many.
     pub sight: [f32; 4],
     /// rgb: radiance of a streak.
     pub streak: [f32; 4],
