@@ -94,7 +94,9 @@ fn lit_layer(direction: vec3f, narrowing: f32) -> vec4f {
     }
     sum = lit_iteration(sum, 0, plane, level, through);
     let alpha = 1.0 - sum.clear;
-    let tint = mix(vec3f(1.0), uniforms.clouds.tint.rgb, cloud_tint(direction));
-    let radiance = sum.sunlight * uniforms.lit.light.rgb + sum.skylight * uniforms.lit.ambient.rgb;
-    return vec4f(radiance * tint / max(alpha, 1e-4), alpha * cloud_clearness(direction));
+    var radiance = sum.sunlight * uniforms.lit.light.rgb + sum.skylight * uniforms.lit.ambient.rgb;
+    if uniforms.clouds.tint.w > 0.0 {
+        radiance *= mix(vec3f(1.0), uniforms.clouds.tint.rgb, cloud_tint(direction));
+    }
+    return vec4f(radiance / max(alpha, 1e-4), alpha * cloud_clearness(direction));
 }

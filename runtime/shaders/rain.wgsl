@@ -1,15 +1,22 @@
-// Rain: streaks on cylinders about the viewer, and grey haze. Theory and CPU part: rain.rs.
+// Rain: streaks of drops that fall about the viewer, a quad each, and grey haze. Theory and CPU part: rain.rs.
 struct RainUniforms {
-    right: vec4f,   // xyz: unit vector across the fall; w: how much rain there is
+    right: vec4f,   // xyz: unit vector across the fall; w: share of the drops that are there
     up: vec4f,      // xyz: unit vector against the fall; w: a pixel in the middle of the screen, in radians
     forward: vec4f, // xyz: the third one
-    streak: vec4f,  // rgb: radiance of a streak; w: opacity of one that is as wide as a pixel
+    sight: vec4f,   // x: first column in sight; y: how many
+    streak: vec4f,  // rgb: radiance of a streak
     haze: vec4f,    // rgb: radiance of the haze; w: its opacity at the horizon
-    // Of each cylinder, from the nearest. x: columns around it; y: cells along it for each radius; z, w: how many cells the rain has
-    // fallen, its fraction and its whole part.
-    cylinders: array<vec4f, 3>,
-    // x: columns over half the width of a streak; y: 1 / half its length, in cells; z: opacity; w: how little room columns leave it
-    widths: array<vec4f, 3>,
+    // Of each kind of drop, from the nearest. x, y: how often it has fallen the whole height, fraction and whole part; z: least radius;
+    // w: how far from it radii go
+    places: array<vec4f, 3>,
+    sizes: array<vec4f, 3>, // x: half the width of a streak, y: half its length, both in metres; z: opacity
+}
+
+struct RainVaryings {
+    @builtin(position) position: vec4f,
+    // x: across, y: along the streak, both -1 to 1; z: opacity of its middle
+    @location(0) place: vec3f,
+    @location(1) @interpolate(flat) colour: vec3f,
 }
 
 // A hash of 32 bits: the finaliser of MurmurHash3, A. Appleby, 2011.
@@ -20,45 +27,67 @@ fn rain_hash(value: u32) -> u32 {
     return bits ^ (bits >> 16u);
 }
 
-// Eight bits of a hash as a number from 0 up to 1, put into the fraction of a float: a conversion takes a GPU several times as long.
-fn rain_share(bits: u32, first: u32) -> f32 {
-    return bitcast<f32>(0x3f800000u | (((bits >> first) & 255u) << 15u)) - 1.0;
+// Each byte of a hash as a number from 0 up to 1, from the lowest.
+fn rain_shares(bits: u32) -> vec4f {
+    return vec4f((vec4u(bits) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u)) / 256.0;
 }
 
-// What the streaks on a cylinder leave clear. x of `place`: azimuth in turns, -0.5 to 0.5; y: tangent of the elevation; z: its cosine;
-// w: 1 / z.
-fn rain_clear(index: i32, place: vec4f) -> f32 {
-    let cylinder = uniforms.rain.cylinders[index];
-    let width = uniforms.rain.widths[index];
-    let column = (place.x + 0.5) * cylinder.x;
-    let number = u32(min(column, cylinder.x - 1.0)) + (u32(index) << 10u);
-    let along = place.y * cylinder.y + cylinder.z + rain_share(rain_hash(number), 8u);
-    let cell = (i32(floor(along)) + i32(cylinder.w)) & 0xffff;
-    let bits = rain_hash((u32(cell) << 13u) + number);
-    if rain_share(bits, 0u) >= uniforms.rain.right.w {
-        return 1.0;
+// Six vertices a drop: two triangles.
+@vertex
+fn vs_rain(@builtin(vertex_index) index: u32) -> RainVaryings {
+    let rain = uniforms.rain;
+    let drop = index / 6u;
+    let slot = drop % RAIN_SLOTS;
+    let column = (u32(rain.sight.x) + drop / RAIN_SLOTS) % RAIN_COLUMNS;
+    let number = column * RAIN_SLOTS + slot;
+    let kind = u32(slot >= RAIN_MIDDLE) + u32(slot >= RAIN_FAR);
+    let own = uniforms.rain.places[kind];
+    let real = uniforms.rain.sizes[kind];
+
+    // Each time that it has fallen the whole height, a drop is another one.
+    let fallen = own.x + f32(rain_hash(number) >> 16u) / 65536.0;
+    let times = (u32(own.y) + u32(fallen)) & 0xffffu;
+    let shares = rain_shares(rain_hash((times << 15u) | number));
+    if shares.w >= rain.right.w {
+        return RainVaryings(vec4f(0.0, 0.0, 0.0, 1.0), vec3f(0.0), vec3f(0.0));
     }
-    let middle = 0.3 + 0.4 * rain_share(bits, 8u);
-    let profile = max(1.0 - abs(fract(column) - middle) * width.x * place.z, 0.0);
-    // Towards the zenith of the fall columns become narrower than their streaks.
-    let room = clamp(2.0 - width.w * place.w, 0.0, 1.0);
-    let lengthwise = (fract(along) - 0.5) * width.y;
-    let ends = max(1.0 - lengthwise * lengthwise, 0.0);
-    return 1.0 - width.z * (0.4 + 0.6 * rain_share(bits, 16u)) * profile * ends * room;
+    let radius = own.z + own.w * shares.y;
+    let height = RAIN_HEIGHT * (0.5 - fract(fallen));
+    // Inside -pi..pi a GPU's sine is exact enough.
+    let angle = TAU * ((f32(column) + shares.x) / f32(RAIN_COLUMNS) - 0.5);
+    let turned = vec2f(sin(angle), cos(angle));
+
+    // What would be narrower or shorter than a pixel is as large as one, and fainter.
+    let distance = length(vec2f(radius, height));
+    let size = max(real.xy, rain.up.w * distance * vec2f(1.0, distance / radius));
+    let ends = min(RAIN_FADE * min(fract(fallen), 1.0 - fract(fallen)), 1.0);
+    let fainter = real.xy / size;
+    let opacity = real.z * fainter.x * fainter.y * ends * (0.4 + 0.6 * shares.z);
+
+    // Corners 0 to 3 in the order 0, 1, 2, 2, 1, 3: two bits each.
+    let corner = (0xda4u >> (2u * (index % 6u))) & 3u;
+    let side = vec2f(f32(corner & 1u), f32(corner >> 1u)) * 2.0 - 1.0;
+    let across = turned * radius + vec2f(turned.y, -turned.x) * (side.x * size.x);
+    let along = height + side.y * size.y;
+    let position = rain.right.xyz * across.x + rain.up.xyz * along + rain.forward.xyz * across.y;
+    let clip = vec3f(
+        dot(position, uniforms.camera.clip_x.xyz),
+        dot(position, uniforms.camera.clip_y.xyz),
+        dot(position, uniforms.camera.clip_w.xyz),
+    );
+    let colour = finish_undithered(rain.streak.rgb);
+    return RainVaryings(vec4f(clip.xy, FAR_DEPTH * clip.z, clip.z), vec3f(side, opacity), colour);
 }
 
 @fragment
-fn fs_rain(in: Varyings) -> @location(0) vec4f {
-    let rain = uniforms.rain;
-    let direction = in.ray * inverseSqrt(dot(in.ray, in.ray));
-    let fall = vec3f(dot(direction, rain.right.xyz), dot(direction, rain.up.xyz), dot(direction, rain.forward.xyz));
-    let across = max(length(fall.xz), 1e-4);
-    let place = vec4f(atan2(fall.x, fall.z) / TAU, fall.y / across, across, 1.0 / across);
-    // Not a loop: constants at known places cost nothing.
-    let clear = rain_clear(0, place) * rain_clear(1, place) * rain_clear(2, place);
-    let streaks = rain.streak.w * (1.0 - clear);
-    let haze = rain.haze.w * (RAIN_HAZE_ABOVE + (1.0 - RAIN_HAZE_ABOVE) * exp2(-RAIN_HAZE_FALL * abs(direction.y)));
-    let opacity = 1.0 - (1.0 - haze) * (1.0 - streaks);
-    let radiance = mix(rain.haze.rgb, rain.streak.rgb, streaks / max(opacity, 1e-4));
-    return vec4f(finish(radiance, in.position.xy).rgb, opacity);
+fn fs_rain(in: RainVaryings) -> @location(0) vec4f {
+    let profile = max(1.0 - abs(in.place.x), 0.0) * max(1.0 - in.place.y * in.place.y, 0.0);
+    return vec4f(in.colour, in.place.z * profile);
+}
+
+// What the haze leaves of what is seen along a unit direction, and its own light.
+fn rain_hazed(radiance: vec3f, direction: vec3f) -> vec3f {
+    let haze = uniforms.rain.haze;
+    let thick = RAIN_HAZE_ABOVE + (1.0 - RAIN_HAZE_ABOVE) * exp2(-RAIN_HAZE_FALL * abs(direction.y));
+    return mix(radiance, haze.rgb, haze.w * thick);
 }

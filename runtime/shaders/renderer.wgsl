@@ -26,8 +26,11 @@ fn fs_sky(in: Varyings) -> @location(0) vec4f {
     if !ASK_OPAQUE || clouds.a < 1.0 {
         radiance = mix(behind_clouds(direction, in.position.xy), clouds.rgb, clouds.a);
     }
-    if uniforms.lightning.light.g > 0.0 {
-        radiance += lightning_light(direction, clouds);
+    if WEATHER {
+        if uniforms.lightning.light.g > 0.0 {
+            radiance += lightning_light(direction, clouds);
+        }
+        radiance = rain_hazed(radiance, direction);
     }
     return finish(radiance, in.position.xy);
 }

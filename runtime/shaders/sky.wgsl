@@ -15,11 +15,14 @@ fn gradient_light(direction: vec3f) -> vec3f {
     let uv = vec2f(sky.gradient.x, sky.gradient.y + sky.gradient.z * sqrt(up));
     var radiance = textureSampleLevel(sky_texture, repeat_sampler, uv, 0.0).rgb;
 
-    let from_sun = dot(direction, sky.sun.xyz) - 1.0;
-    let wide = exp2(sky.wide.w * from_sun);
-    // The narrow lobe is the wide one's twelfth power: three squares cost less than an exponential.
-    let wide_4 = (wide * wide) * (wide * wide);
-    radiance += sky.wide.rgb * wide + sky.narrow.rgb * (wide_4 * wide_4 * wide_4);
+    // No lobes by night.
+    if sky.wide.r > 0.0 {
+        let from_sun = dot(direction, sky.sun.xyz) - 1.0;
+        let wide = exp2(sky.wide.w * from_sun);
+        // The narrow lobe is the wide one's twelfth power: three squares cost less than an exponential.
+        let wide_4 = (wide * wide) * (wide * wide);
+        radiance += sky.wide.rgb * wide + sky.narrow.rgb * (wide_4 * wide_4 * wide_4);
+    }
     if sky.band.r > 0.0 {
         let side = 0.5 + 0.5 * dot(direction.xz, uniforms.clouds.gradient.xy);
         radiance += sky.band.rgb * (side * side * exp2(-sky.band.w * abs(direction.y)));
@@ -34,7 +37,9 @@ fn sky_radiance(direction: vec3f) -> vec3f {
     } else {
         radiance = gradient_light(direction);
     }
-    radiance = mix(radiance, uniforms.sky.overcast.rgb, uniforms.sky.overcast.w);
+    if uniforms.sky.overcast.w > 0.0 {
+        radiance = mix(radiance, uniforms.sky.overcast.rgb, uniforms.sky.overcast.w);
+    }
     if direction.y < 0.0 {
         radiance *= GROUND_FLOOR + (1.0 - GROUND_FLOOR) / (1.0 - GROUND_FALL * direction.y);
     }

@@ -29,14 +29,15 @@ fn star_tile_swaps(tile: vec2i) -> bool {
 fn star_radiance(dome: vec2f, pixel: vec2f, galaxy: f32) -> vec3f {
     let field = uniforms.stars.field;
     let scaled = (dome + STAR_START) * (1.0 / STAR_TILE_SIDE);
-    let tile = vec2i(floor(scaled));
-    let uv = turn_star(tile, scaled - vec2f(tile));
-    let texel = min(floor(uv * field.y), vec2f(field.y - 1.0));
-    let star = textureLoad(stars_texture, vec2i(texel), i32(field.x));
+    let corner = floor(scaled);
+    let tile = vec2i(corner);
+    let uv = turn_star(tile, scaled - corner);
+    let texel = vec2i(min(uv * field.y, vec2f(field.y - 1.0)));
+    let star = textureLoad(stars_texture, texel, i32(field.x));
     if star.r == 0.0 {
         return vec3f(0.0);
     }
-    let centre = vec2f(tile) + turn_star_back(tile, (texel + 0.5) / field.y);
+    let centre = corner + turn_star_back(tile, (vec2f(texel) + 0.5) / field.y);
     let offset = abs(pixel_of(dome_to_direction(centre * STAR_TILE_SIDE - STAR_START)) - pixel);
     // A tent one pixel wide each way: over the pixels of a row its weights add up to 1 wherever the
     // star is between them, so a star that moves never changes its total light.

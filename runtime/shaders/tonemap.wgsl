@@ -16,9 +16,9 @@ fn srgb_encode(linear: vec3f) -> vec3f {
 }
 
 // Interleaved gradient noise, -0.5..0.5: J. Jimenez, "Next Generation Post Processing in Call of Duty:
-// Advanced Warfare", SIGGRAPH 2014.
+// Advanced Warfare", SIGGRAPH 2014. `pixel` is the middle of a pixel: a half less is its number, without rounding.
 fn dither_noise(pixel: vec2f) -> f32 {
-    return fract(52.9829189 * fract(dot(floor(pixel), vec2f(0.06711056, 0.00583715)))) - 0.5;
+    return fract(52.9829189 * fract(dot(pixel - 0.5, vec2f(0.06711056, 0.00583715)))) - 0.5;
 }
 
 fn finish(radiance: vec3f, pixel: vec2f) -> vec4f {
@@ -34,4 +34,16 @@ fn finish(radiance: vec3f, pixel: vec2f) -> vec4f {
     // 2 sqrt(x) is the slope of the curve's near relative, the square.
     let root = display * inverseSqrt(max(display, vec3f(1e-6)));
     return vec4f(display + step * (2.0 * root + abs(step)), 1.0);
+}
+
+// The same without dither: what a frame has of one colour can be told once.
+fn finish_undithered(radiance: vec3f) -> vec3f {
+    if OUTPUT == OUTPUT_RADIANCE {
+        return radiance;
+    }
+    let display = tone_curve(radiance * uniforms.tonemap.display.x);
+    if OUTPUT == OUTPUT_ENCODED {
+        return srgb_encode(display);
+    }
+    return display;
 }

@@ -128,7 +128,7 @@ impl Facts {
             fbm,
             lightning: flash,
             rays: rays::uniforms(&params, &light, &clouds, &rays, pixel),
-            rain: rain::uniforms(&params, &view, &clouds, &lit, &flash),
+            rain: rain::uniforms(&params, &view, &rays, &clouds, &lit, &flash),
             shadow: shadow::uniforms(&params, &view, &lit),
             lit,
             flares: flares::uniforms(&params, &light, &camera, self.flares),

@@ -6,7 +6,7 @@
 //! detail of the cloud texture; their means keep the brightness.
 //!
 //! # Practice
-//! One bilinear and one trilinear texture read a pixel at night.
+//! One bilinear and one trilinear texture read a pixel at night; the latter is bilinear too where its level is nearly whole.
 
 use glam::Vec3;
 
@@ -21,11 +21,43 @@ const LIGHT: Vec3 = Vec3::new(0.085, 0.098, 0.135);
 /// Tiles of the cloud texture a radian of the dome: its waves are 0.5 to 15 degrees long then.
 pub const GRAIN_SCALE: f32 = 1.9;
 
+/// A level of the grain that is this near to a whole one is taken for it: the eye sees no difference, and a GPU reads one level, not two.
+const NEARLY_WHOLE: f32 = 0.125;
+
 /// The galaxy's share of the uniforms. `texels` is the side of the cloud texture, `pixel_rad` a pixel in the
 /// middle of the screen.
 pub fn uniforms(night: f32, texels: u32, pixel_rad: f32) -> GalaxyUniforms {
     let level = (pixel_rad * GRAIN_SCALE * texels as f32).log2().max(0.0);
     GalaxyUniforms {
-        light: vec4(LIGHT * night, level),
+        light: vec4(LIGHT * night, whole_if_near(level)),
+    }
+}
+
+fn whole_if_near(level: f32) -> f32 {
+    let whole = level.round();
+    if (level - whole).abs() < NEARLY_WHOLE {
+        whole
+    } else {
+        level
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_grains_level_is_that_of_the_pixel_or_the_whole_one_beside_it() {
+        let texel_rad = 1.0 / (GRAIN_SCALE * 512.0);
+        for step in -200..800 {
+            let level = step as f32 / 100.0;
+            let found = uniforms(1.0, 512, texel_rad * level.exp2()).light[3];
+            let expected = level.max(0.0);
+            assert!((found - expected).abs() <= NEARLY_WHOLE, "{level}: {found}");
+            assert!(
+                found == found.round() || (found - expected).abs() < 1e-4,
+                "{level}: {found}"
+            );
+        }
     }
 }

@@ -13,7 +13,7 @@
 //! # Practice
 //! Distances are on the plane of the dome of [`crate::dome`], in heights of [`LOW_HEIGHT_M`], whatever the method. That plane ends at
 //! the horizon, 5.7 heights away: flashes beyond light the clouds at the horizon, and are dimmer. One exponential and a division a
-//! pixel, and without a flash a branch that no pixel takes. The light does not go beyond clouds and rain: an application that wants its scene
+//! pixel, in pipelines that are made when a flash is first told, before it begins; without a flash, nothing. The light does not go beyond clouds and rain: an application that wants its scene
 //! lit asks [`brightness`].
 
 use glam::{DVec2, DVec3, Vec3};

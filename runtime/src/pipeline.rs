@@ -7,56 +7,50 @@ use crate::{DepthConfig, Method, SkyConfig, SkyError, shader, tonemap};
 
 /// What a frame needs beyond the clear sky and one layer of clouds.
 ///
-/// By day no star shows, and the upper layer is mostly off. A branch over a uniform would do for a GPU; a
-/// software rasteriser runs both of its sides, and takes twice the time. So each of the four is a pipeline.
+/// By day no star shows, the upper layer is mostly off, and weather is rare. A branch over a uniform would do for a GPU; a
+/// software rasteriser runs both of its sides, and takes twice the time. So each is a pipeline: four, and four that are made when
+/// a frame first has weather.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Variant {
     /// Stars and galaxy.
     pub night: bool,
     /// The thin upper layer.
     pub upper_layer: bool,
+    /// Haze of rain, or a flash.
+    pub weather: bool,
 }
 
 impl Variant {
-    /// Every variant, at its [`Variant::index`].
-    pub const ALL: [Variant; 4] = [
-        Variant {
-            night: false,
-            upper_layer: false,
-        },
-        Variant {
-            night: true,
-            upper_layer: false,
-        },
-        Variant {
-            night: false,
-            upper_layer: true,
-        },
-        Variant {
-            night: true,
-            upper_layer: true,
-        },
-    ];
+    /// Every variant with weather or without, at its [`Variant::index`].
+    pub fn all(weather: bool) -> [Variant; 4] {
+        [0, 1, 2, 3].map(|index| Variant {
+            night: index & 1 > 0,
+            upper_layer: index & 2 > 0,
+            weather,
+        })
+    }
 
     /// The least that draws a frame.
     pub fn of(uniforms: &Uniforms) -> Variant {
         Variant {
             night: uniforms.sky.gradient[3] > 0.0,
             upper_layer: uniforms.packed.shape[3] > 0.0,
+            weather: uniforms.rain.haze[3] > 0.0 || uniforms.lightning.light[1] > 0.0,
         }
     }
 
-    /// Place in [`Variant::ALL`].
+    /// Place in [`Variant::all`].
     pub fn index(self) -> usize {
         usize::from(self.night) + 2 * usize::from(self.upper_layer)
     }
 
     /// The shader's overridable constants.
-    fn constants(self) -> [(&'static str, f64); 2] {
+    fn constants(self) -> [(&'static str, f64); 3] {
         let number = |on: bool| f64::from(u8::from(on));
         [
             ("NIGHT", number(self.night)),
             ("UPPER_LAYER", number(self.upper_layer)),
+            ("WEATHER", number(self.weather)),
         ]
     }
 }
@@ -104,7 +98,7 @@ pub(crate) fn vertex_state<'a>(
     }
 }
 
-/// Builds a pipeline for each variant, for the triangle over the screen or for the dome's mesh.
+/// Builds a pipeline for each of these variants, for the triangle over the screen or for the dome's mesh.
 pub(crate) fn pipelines(
     device: &wgpu::Device,
     config: &SkyConfig,
@@ -112,6 +106,7 @@ pub(crate) fn pipelines(
     layouts: &Layouts,
     own: Option<&wgpu::BindGroupLayout>,
     dome_mesh: bool,
+    variants: [Variant; 4],
 ) -> [wgpu::RenderPipeline; 4] {
     let layout = layouts.pipeline_layout(device, own);
     let vertices = [Some(wgpu::VertexBufferLayout {
@@ -132,7 +127,7 @@ pub(crate) fn pipelines(
     } else {
         ("vs_screen", &[][..], wgpu::PrimitiveState::default())
     };
-    Variant::ALL.map(|variant| {
+    variants.map(|variant| {
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("sky"),
             layout: Some(&layout),
@@ -171,15 +166,14 @@ impl Overlay {
         topology: wgpu::PrimitiveTopology::TriangleStrip,
         behind: wgpu::BlendFactor::One,
     };
-    /// Rays lie over what is behind them.
-    pub const RAYS: Overlay = Overlay::over("fs_rays");
-    /// And so does rain.
-    pub const RAIN: Overlay = Overlay::over("fs_rain");
+    /// Rays lie over what is behind them: a triangle over the screen.
+    pub const RAYS: Overlay = Overlay::over(["vs_screen", "fs_rays"]);
+    /// And so does rain: two triangles a drop.
+    pub const RAIN: Overlay = Overlay::over(["vs_rain", "fs_rain"]);
 
-    /// A triangle over the screen.
-    const fn over(fragment: &'static str) -> Overlay {
+    const fn over(entries: [&'static str; 2]) -> Overlay {
         Overlay {
-            entries: ["vs_screen", fragment],
+            entries,
             topology: wgpu::PrimitiveTopology::TriangleList,
             behind: wgpu::BlendFactor::OneMinusSrcAlpha,
         }
@@ -271,8 +265,10 @@ mod tests {
 
     #[test]
     fn every_variant_stands_at_its_index() {
-        for (index, variant) in Variant::ALL.into_iter().enumerate() {
-            assert_eq!(variant.index(), index);
+        for weather in [false, true] {
+            for (index, variant) in Variant::all(weather).into_iter().enumerate() {
+                assert_eq!((variant.index(), variant.weather), (index, weather));
+            }
         }
     }
 }

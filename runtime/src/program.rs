@@ -1,7 +1,7 @@
 //! What one method needs on a device: its pipelines, its off-screen passes, and what is drawn over its sky.
 
 use crate::layouts::Layouts;
-use crate::pipeline::{Overlay, overlay_pipeline, own_layout, pipelines};
+use crate::pipeline::{Overlay, Variant, overlay_pipeline, own_layout, pipelines};
 use crate::shader::{Build, compose};
 use crate::{Method, SkyConfig, SkyModel, fbm_map, lit_map, octaves_map, rays, shadow};
 
@@ -35,10 +35,16 @@ impl Common {
             .create_shader_module(wgpu::ShaderModuleDescriptor { label, source })
     }
 
-    fn pipelines(&self, module: &wgpu::ShaderModule, method: Method) -> [wgpu::RenderPipeline; 4] {
+    fn pipelines(
+        &self,
+        module: &wgpu::ShaderModule,
+        method: Method,
+        weather: bool,
+    ) -> [wgpu::RenderPipeline; 4] {
         let own = own_layout(&self.layouts, method);
-        let (device, config) = (&self.device, &self.config);
-        pipelines(device, config, module, &self.layouts, own, self.mesh)
+        let (device, config, layouts) = (&self.device, &self.config, &self.layouts);
+        let variants = Variant::all(weather);
+        pipelines(device, config, module, layouts, own, self.mesh, variants)
     }
 
     /// The pipeline of what is drawn over the sky; `own` is the layout of its group 1.
@@ -58,8 +64,8 @@ impl Common {
 pub(crate) struct Program {
     method: Method,
     module: wgpu::ShaderModule,
-    /// Of each sky model, at its place in [`SkyModel::ALL`].
-    pub pipelines: [Option<[wgpu::RenderPipeline; 4]>; SkyModel::ALL.len()],
+    /// Of each sky model, at its place in [`SkyModel::ALL`]; without weather, and with it.
+    pipelines: [[Option<[wgpu::RenderPipeline; 4]>; 2]; SkyModel::ALL.len()],
     pub flare: Option<wgpu::RenderPipeline>,
     pub map: OwnMap,
     // What follows is made when it is first asked for.
@@ -95,8 +101,8 @@ impl Program {
                 OwnMap::Lit(lit_map::Pass::new(device, &module, layouts, &common.layers).into())
             }
         };
-        let mut models = [const { None }; SkyModel::ALL.len()];
-        models[sky as usize] = Some(common.pipelines(&module, method));
+        let mut models = [const { [const { None }; 2] }; SkyModel::ALL.len()];
+        models[sky as usize][0] = Some(common.pipelines(&module, method, false));
         Program {
             method,
             pipelines: models,
@@ -111,14 +117,25 @@ impl Program {
 
     /// Makes what is not there yet of a sky model, and the map anew if it is for another number of octaves.
     pub fn fit(&mut self, common: &Common, sky: SkyModel, octaves: u32) {
-        let method = self.method;
-        self.pipelines[sky as usize].get_or_insert_with(|| {
-            let module = common.module(method, sky);
-            common.pipelines(&module, method)
-        });
+        self.fit_sky(common, sky, false);
         if let OwnMap::Octaves(pass) = &mut self.map {
             pass.fit(&common.device, &common.layouts, octaves);
         }
+    }
+
+    /// Makes the pipelines of a sky model, with weather or without.
+    pub fn fit_sky(&mut self, common: &Common, sky: SkyModel, weather: bool) {
+        let method = self.method;
+        self.pipelines[sky as usize][usize::from(weather)].get_or_insert_with(|| {
+            let module = common.module(method, sky);
+            common.pipelines(&module, method, weather)
+        });
+    }
+
+    /// What draws the sky of a frame, if it was made.
+    pub fn pipeline(&self, sky: SkyModel, variant: Variant) -> Option<&wgpu::RenderPipeline> {
+        let made = self.pipelines[sky as usize][usize::from(variant.weather)].as_ref()?;
+        Some(&made[variant.index()])
     }
 
     /// Records the cloud shadows of the lit method.

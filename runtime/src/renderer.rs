@@ -16,7 +16,9 @@ use crate::shader::Build;
 use crate::shadow::{self, Shadow};
 use crate::uniforms::Uniforms;
 use crate::upload::upload;
-use crate::{Camera, Method, SkyError, SkyModel, SkyParams, dome, flares, octaves_map, tonemap};
+use crate::{
+    Camera, Method, SkyError, SkyModel, SkyParams, dome, flares, octaves_map, rain, tonemap,
+};
 
 /// What the sky is drawn onto.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +63,8 @@ struct Prepared {
     sky: SkyModel,
     variant: Variant,
     rays: bool,
-    rain: bool,
+    /// Vertices of the rain, 0 without.
+    rain: u32,
     flare: bool,
     shadow: Option<shadow::Area>,
 }
@@ -204,17 +207,23 @@ impl Sky {
         if shadow.is_some() {
             program.record_shadow(&self.common, encoder, &self.shared);
         }
-        let (rays, rain) = (uniforms.rays.sun[3] > 0.0, uniforms.rain.right[3] > 0.0);
+        let rays = uniforms.rays.sun[3] > 0.0;
+        let rain = rain::vertices(&uniforms.rain);
         if rays {
             program.record_rays(&self.common, encoder, &self.shared);
         }
-        if rain {
+        let variant = Variant::of(&uniforms);
+        // A flash that is told is made ready for before it begins.
+        if variant.weather || params.weather.lightning.strength > 0.0 {
+            program.fit_sky(&self.common, params.sky, true);
+        }
+        if rain > 0 {
             program.fit_rain(&self.common);
         }
         self.prepared = Some(Prepared {
             method: params.method,
             sky: params.sky,
-            variant: Variant::of(&uniforms),
+            variant,
             rays,
             rain,
             flare: uniforms.flares.light[0] > 0.0,
@@ -229,14 +238,14 @@ impl Sky {
         let Some((prepared, program)) = self.current() else {
             return;
         };
-        let Some(pipelines) = &program.pipelines[prepared.sky as usize] else {
+        let Some(pipeline) = program.pipeline(prepared.sky, prepared.variant) else {
             return;
         };
         pass.set_bind_group(0, &self.shared, &[]);
         if let Some(group) = program.map.group() {
             pass.set_bind_group(1, group, &[]);
         }
-        pass.set_pipeline(&pipelines[prepared.variant.index()]);
+        pass.set_pipeline(pipeline);
         match &self.dome {
             None => pass.draw(0..3, 0..1),
             Some(dome) => {
@@ -251,9 +260,9 @@ impl Sky {
             pass.set_bind_group(1, rays.group(), &[]);
             pass.draw(0..3, 0..1);
         }
-        if let Some(rain) = program.rain.as_ref().filter(|_| prepared.rain) {
+        if let Some(rain) = program.rain.as_ref().filter(|_| prepared.rain > 0) {
             pass.set_pipeline(rain);
-            pass.draw(0..3, 0..1);
+            pass.draw(0..prepared.rain, 0..1);
         }
         if let Some(flare) = program.flare.as_ref().filter(|_| prepared.flare) {
             pass.set_pipeline(flare);

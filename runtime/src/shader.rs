@@ -157,6 +157,8 @@ fn constants(build: Build) -> String {
         ("RAYS_HORIZON", rays::HORIZON),
         ("RAYS_GROUND", rays::GROUND),
         ("RAYS_CORE", rays::CORE),
+        ("RAIN_HEIGHT", rain::HEIGHT_M as f32),
+        ("RAIN_FADE", rain::FADE),
         ("RAIN_HAZE_ABOVE", rain::HAZE_ABOVE),
         ("RAIN_HAZE_FALL", rain::HAZE_FALL),
         ("TONE_SHOULDER", tonemap::SHOULDER),
@@ -173,6 +175,15 @@ fn constants(build: Build) -> String {
     );
     for (name, value) in [("RAYS_TAPS", rays::TAPS), ("RAYS_AROUND", rays::AROUND)] {
         let _ = writeln!(text, "const {name} = {value};");
+    }
+    let [near, middle, _] = rain::SLOTS;
+    for (name, value) in [
+        ("RAIN_COLUMNS", rain::COLUMNS),
+        ("RAIN_SLOTS", rain::DROPS_A_COLUMN),
+        ("RAIN_MIDDLE", near),
+        ("RAIN_FAR", near + middle),
+    ] {
+        let _ = writeln!(text, "const {name} = {value}u;");
     }
     let _ = writeln!(text, "const LIT_STEPS = {};", lit_map::STEPS);
     let _ = writeln!(
@@ -277,7 +288,7 @@ mod tests {
                 ["vs_screen", "vs_dome"].as_slice(),
                 &passes,
                 &rays,
-                &["fs_rain", "vs_flare", "fs_flare", "fs_sky"],
+                &["vs_rain", "fs_rain", "vs_flare", "fs_flare", "fs_sky"],
             ];
             assert_eq!(entries, sky.concat());
         }
@@ -423,10 +434,11 @@ mod tests {
             right,
             up,
             forward,
+            sight,
             streak,
             haze,
-            cylinders,
-            widths
+            places,
+            sizes
         );
         assert_same_layout!(module, FlareUniforms, light, places, colours, cells);
         assert_same_layout!(module, TonemapUniforms, display);

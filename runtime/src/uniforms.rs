@@ -267,20 +267,23 @@ pub struct RayUniforms {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct RainUniforms {
-    /// xyz: unit vector across the fall; w: share of cells that hold a drop.
+    /// xyz: unit vector across the fall; w: share of the drops that are there.
     pub right: [f32; 4],
     /// xyz: unit vector against the fall; w: a pixel in the middle of the screen, in radians.
     pub up: [f32; 4],
     /// xyz: the third one.
     pub forward: [f32; 4],
-    /// rgb: radiance of a streak; w: opacity.
+    /// x: first column in sight; y: how many.
+    pub sight: [f32; 4],
+    /// rgb: radiance of a streak.
     pub streak: [f32; 4],
     /// rgb: radiance of the haze; w: its opacity at the horizon.
     pub haze: [f32; 4],
-    /// Of each cylinder, x: columns; y: cells along it for each radius; z: fraction, w: whole part of the cells fallen.
-    pub cylinders: [[f32; 4]; crate::rain::CYLINDERS],
-    /// x: columns over half the width of a streak; y: 1 / half its length, in cells; z: opacity; w: how little room columns leave it.
-    pub widths: [[f32; 4]; crate::rain::CYLINDERS],
+    /// Of each kind of drop, x, y: how often it has fallen the whole height, fraction and whole part; z: least radius; w: how far
+    /// from it radii go.
+    pub places: [[f32; 4]; crate::rain::KINDS],
+    /// x: half the width of a streak, y: half its length, both in metres; z: opacity.
+    pub sizes: [[f32; 4]; crate::rain::KINDS],
 }
 
 /// The lens flare.

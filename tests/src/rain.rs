@@ -2,51 +2,118 @@
 
 use std::f32::consts::TAU;
 
-use glam::Vec3;
-use welkin_runtime::rain::{CYLINDERS, HAZE_ABOVE, HAZE_FALL};
-use welkin_runtime::uniforms::RainUniforms;
+use glam::{Mat3, Vec2, Vec3};
+use welkin_runtime::rain::{COLUMNS, DROPS_A_COLUMN, FADE, HAZE_ABOVE, HAZE_FALL, HEIGHT_M, SLOTS};
+use welkin_runtime::uniforms::{CameraUniforms, RainUniforms};
 
-use crate::xyz;
+use crate::{camera, xyz};
 
-/// Colour and opacity of rain and haze along a ray.
-pub fn over(rain: &RainUniforms, ray: Vec3) -> (Vec3, f32) {
-    let streaks = rain.streak[3] * streaks(rain, ray);
+/// Colour and opacity of the haze along a ray.
+pub fn haze(rain: &RainUniforms, ray: Vec3) -> (Vec3, f32) {
     let far = libm::exp2f(-HAZE_FALL * ray.normalize().y.abs());
-    let haze = rain.haze[3] * (HAZE_ABOVE + (1.0 - HAZE_ABOVE) * far);
-    let opacity = haze + streaks - haze * streaks;
-    let share = streaks / opacity.max(1e-4);
-    (xyz(rain.haze).lerp(xyz(rain.streak), share), opacity)
+    let opacity = rain.haze[3] * (HAZE_ABOVE + (1.0 - HAZE_ABOVE) * far);
+    (xyz(rain.haze), opacity)
 }
 
-/// What the streaks of all cylinders cover together.
-pub fn streaks(rain: &RainUniforms, ray: Vec3) -> f32 {
-    let direction = ray.normalize();
-    let [x, y, z] = [rain.right, rain.up, rain.forward].map(|axis| direction.dot(xyz(axis)));
-    let across = libm::hypotf(x, z).max(1e-4);
-    let turns = libm::atan2f(x, z) / TAU;
-    let open = (0..CYLINDERS).map(|index| 1.0 - cylinder(rain, index, turns, y / across, across));
-    1.0 - open.product::<f32>()
-}
-
-fn cylinder(rain: &RainUniforms, index: usize, turns: f32, rise: f32, across: f32) -> f32 {
-    let [columns, cells, fraction, whole] = rain.cylinders[index];
-    let [columns_a_half_width, per_half_length, opacity, tightness] = rain.widths[index];
-    let drops = rain.right[3];
-    let column = (turns + 0.5) * columns;
-    let number = (column as u32).min(columns as u32 - 1) | (index as u32) << 10;
-    let along = rise * cells + fraction + share(hash(number), 8);
-    let cell = (along.floor() as i32 + whole as i32).rem_euclid(65_536) as u32;
-    let drop = hash(cell << 13 | number);
-    if share(drop, 0) >= drops {
-        return 0.0;
+/// What the streaks cover of each pixel, row by row from the top, if each is turned so far about the axis.
+pub fn streaks(view: &CameraUniforms, rain: &RainUniforms, turned_rad: f32) -> Vec<f32> {
+    let size = [view.right[3], view.up[3]].map(|side| side as usize);
+    let mut clear = vec![1.0; size[0] * size[1]];
+    let [first, count, ..] = rain.sight.map(|v| v as u32);
+    for column in (first..first + count).map(|column| column % COLUMNS) {
+        for slot in 0..DROPS_A_COLUMN {
+            if let Some(streak) = Streak::new(rain, column, slot, turned_rad) {
+                streak.cover(view, size, &mut clear);
+            }
+        }
     }
-    let off = (column - column.floor() - (0.3 + 0.4 * share(drop, 8))).abs();
-    let room = 2.0 - tightness / across;
-    let off_middle = (along - along.floor() - 0.5) * per_half_length;
-    (1.0 - off * columns_a_half_width * across).max(0.0)
-        * (1.0 - off_middle * off_middle).max(0.0)
-        * room.clamp(0.0, 1.0)
-        * (opacity * (0.4 + 0.6 * share(drop, 16)))
+    clear.into_iter().map(|clear| 1.0 - clear).collect()
+}
+
+/// The quad of a drop: a flat thing in space, in metres from the eye.
+struct Streak {
+    middle: Vec3,
+    half_width: Vec3,
+    half_length: Vec3,
+    opacity: f32,
+}
+
+impl Streak {
+    /// The streak of a drop, if that is there.
+    fn new(rain: &RainUniforms, column: u32, slot: u32, turned_rad: f32) -> Option<Streak> {
+        let number = column * DROPS_A_COLUMN + slot;
+        let kind = usize::from(slot >= SLOTS[0]) + usize::from(slot >= SLOTS[0] + SLOTS[1]);
+        let [fraction, whole, least, range] = rain.places[kind];
+        let [half_width, half_length, opacity, _] = rain.sizes[kind];
+        let fallen = fraction + (hash(number) >> 16) as f32 / 65_536.0;
+        let times = (whole as u32 + fallen as u32) % 65_536;
+        let bits = hash(times << 15 | number).to_le_bytes();
+        let [aside, away, bright, rank] = bits.map(|byte| f32::from(byte) / 256.0);
+        if rank >= rain.right[3] {
+            return None;
+        }
+        let radius = least + range * away;
+        let height = HEIGHT_M as f32 * (0.5 - fallen.fract());
+        let angle = TAU * ((column as f32 + aside) / COLUMNS as f32 - 0.5) + turned_rad;
+        let (sine, cosine) = (libm::sinf(angle), libm::cosf(angle));
+        let [right, up, forward] = [rain.right, rain.up, rain.forward].map(xyz);
+        // What a pixel covers there, across the ray; and along the streak, which is seen at a slant.
+        let distance = libm::hypotf(radius, height);
+        let pixel = rain.up[3] * distance;
+        let drawn = [
+            half_width.max(pixel),
+            half_length.max(pixel * distance / radius),
+        ];
+        let fainter = half_width / drawn[0] * (half_length / drawn[1]);
+        let to_end = fallen.fract().min(1.0 - fallen.fract());
+        Some(Streak {
+            middle: (right * sine + forward * cosine) * radius + up * height,
+            half_width: (right * cosine - forward * sine) * drawn[0],
+            half_length: up * drawn[1],
+            opacity: opacity * fainter * (FADE * to_end).min(1.0) * (0.4 + 0.6 * bright),
+        })
+    }
+
+    /// Covers the pixels before it.
+    fn cover(&self, view: &CameraUniforms, [width, height]: [usize; 2], clear: &mut [f32]) {
+        let Some([from, to]) = self.box_of_pixels(view) else {
+            return;
+        };
+        let range = |from: f32, to: f32, size: usize| {
+            let [first, last] = [from.floor() - 1.0, to.ceil() + 1.0].map(|v| v.max(0.0) as usize);
+            first.min(size)..last.min(size)
+        };
+        // A ray is a sum of the three where it meets the quad, scaled.
+        let on_quad = Mat3::from_cols(self.half_width, self.half_length, self.middle).inverse();
+        for y in range(from.y, to.y, height) {
+            for x in range(from.x, to.x, width) {
+                let pixel = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+                let met = on_quad * camera::ray_of(view, pixel);
+                let [across, along] = [met.x / met.z, met.y / met.z];
+                if met.z > 0.0 && across.abs() < 1.0 && along.abs() < 1.0 {
+                    let profile = (1.0 - across.abs()) * (1.0 - along * along);
+                    clear[y * width + x] *= 1.0 - self.opacity * profile;
+                }
+            }
+        }
+    }
+
+    /// Two corners of a box around it: all pixels if a part is behind the eye, none if all of it is.
+    fn box_of_pixels(&self, view: &CameraUniforms) -> Option<[Vec2; 2]> {
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)]
+            .map(|(x, y)| self.middle + self.half_width * x + self.half_length * y);
+        let ahead = corners.map(|corner| corner.dot(xyz(view.clip_w)) > 1e-3);
+        if !ahead.contains(&true) {
+            return None;
+        }
+        if ahead.contains(&false) {
+            return Some([Vec2::ZERO, Vec2::new(view.right[3], view.up[3])]);
+        }
+        let seen = corners.map(|corner| camera::pixel_of(view, corner));
+        let [first, ..] = seen;
+        let [from, to] = [Vec2::min, Vec2::max].map(|pick| seen.into_iter().fold(first, pick));
+        Some([from, to])
+    }
 }
 
 /// The finaliser of MurmurHash3.
@@ -54,9 +121,4 @@ fn hash(value: u32) -> u32 {
     let bits = (value ^ value >> 16).wrapping_mul(0x85EB_CA6B);
     let bits = (bits ^ bits >> 13).wrapping_mul(0xC2B2_AE35);
     bits ^ bits >> 16
-}
-
-/// A byte of a hash, from this bit on, as a number from 0 up to 1.
-fn share(bits: u32, first: u32) -> f32 {
-    f32::from((bits >> first) as u8) / 256.0
 }

@@ -11,8 +11,8 @@ use crate::clouds::Inputs;
 use crate::skybox::{self, Skybox};
 use crate::texture::{Texture, smoothstep};
 use crate::{
-    camera, clouds, fbm_map, fbm_pack, flares, galaxy, lightning, lit_map, map, octaves_map, sky,
-    stars, sun, xyz,
+    camera, clouds, fbm_map, fbm_pack, flares, galaxy, lightning, lit_map, map, octaves_map, rain,
+    sky, stars, sun, xyz,
 };
 
 /// A texture unit may filter 8-bit texels in 8 bits (Mesa's software does; Vulkan asks for no more), which makes a
@@ -205,7 +205,11 @@ impl Frame<'_> {
     }
 
     /// What an overlay of this colour and opacity makes of a picture.
-    pub fn under(&self, picture: &[Vec3], overlay: impl Fn(Vec3) -> (Vec3, f32)) -> Vec<Vec3> {
+    pub fn under(
+        &self,
+        picture: &[Vec3],
+        mut overlay: impl FnMut(Vec3) -> (Vec3, f32),
+    ) -> Vec<Vec3> {
         let mut behind = picture.iter();
         self.pixels(|pixel| {
             let behind = behind.next().expect("every pixel is there");
@@ -238,9 +242,12 @@ impl Frame<'_> {
         }
     }
 
-    /// Radiance of one pixel.
+    /// Radiance of one pixel, behind the haze of rain if there is any.
     pub fn pixel(&self, pixel: Vec2) -> Vec3 {
-        self.over(self.pixel_behind(pixel), pixel)
+        let sky = self.over(self.pixel_behind(pixel), pixel);
+        let ray = camera::ray_of(&self.uniforms.camera, pixel);
+        let (colour, opacity) = rain::haze(&self.uniforms.rain, ray);
+        sky.lerp(colour, opacity)
     }
 
     /// Radiance of one pixel behind the clouds.

@@ -4,8 +4,8 @@ use super::{ParamError, Ranged};
 
 /// Weather over the clouds of any method; all of it off by default.
 ///
-/// Rays and rain want a target that can be blended with, which 32-bit floats mostly cannot: on such a one they are left out. What
-/// draws them is made when they first show; an application that must not wait then prepares a frame with them while it loads.
+/// Rays and streaks of rain want a target that can be blended with, which 32-bit floats mostly cannot: on such a one they are left out. What
+/// draws weather is made when a frame first has it, or a flash is told; an application that must not wait then prepares a frame with them while it loads.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WeatherParams {
     /// Strength of crepuscular rays, 0 (off) to 1. See [`crate::rays`].

@@ -10,7 +10,7 @@ use glam::Vec3;
 use welkin_runtime::{
     Camera, DepthConfig, Lightning, Method, Sky, SkyConfig, SkyModel, SkyParams, WeatherParams,
 };
-use welkin_tests::renderer::Frame;
+use welkin_tests::renderer::{Frame, Twin};
 use welkin_tests::{compare, gpu, pack, xyz};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -253,7 +253,7 @@ fn weather_is_drawn_into_any_pass_that_the_sky_is_drawn_into() {
     }
 }
 
-/// Targets of 32-bit floats cannot be blended with: rays and rain are left out, lightning is there.
+/// Targets of 32-bit floats cannot be blended with: rays and streaks are left out, haze and lightning are there.
 #[test]
 fn a_target_that_cannot_be_blended_with_shows_what_needs_no_blending() {
     let gpu::Gpu { device, queue, .. } = gpu::gpu();
@@ -274,10 +274,14 @@ fn a_target_that_cannot_be_blended_with_shows_what_needs_no_blending() {
     };
     let usual = params(Method::Packed);
     let without = picture(&usual);
-    assert_eq!(
-        picture(&with(usual, |w| (w.rays, w.rain) = (1.0, 1.0))),
-        without
-    );
+    assert_eq!(picture(&with(usual, |w| w.rays = 1.0)), without);
+    let rain = with(usual, |w| w.rain = 1.0);
+    let twin = Twin::new(pack::default_pack());
+    let frame = twin.frame_without_map(&rain, &view(), BRIGHT_S);
+    let haze = |ray| welkin_tests::rain::haze(&frame.uniforms.rain, ray);
+    let hazed = frame.under(&gpu::rgb(&without), haze);
+    let bounds = vec![Vec3::splat(1e-4); hazed.len()];
+    assert_near("haze", &hazed, &gpu::rgb(&picture(&rain)), &bounds, 0.1);
     assert_ne!(
         picture(&with(usual, |w| w.lightning = Lightning {
             place_m: [-900.0, 600.0],
