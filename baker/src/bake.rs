@@ -4,13 +4,13 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use welkin_pack::manifest::Input;
-use welkin_pack::{Format, Image, Pack, PackInfo, Role, Source};
+use welkin_pack::{Field, Format, Image, Pack, PackInfo, Role, Source};
 
 use crate::clouds::{self, photo};
 use crate::error::BakeError;
 use crate::load::{self, Picture};
-use crate::settings::{PhotoSettings, Resolved, SkyboxSettings};
-use crate::{fbm, flares, galaxy, layers, octaves, sky, skybox, stars, sun};
+use crate::settings::{FieldSettings, ModelSource, PhotoSettings, Resolved, SkyboxSettings};
+use crate::{fbm, field, flares, galaxy, layers, octaves, sky, skybox, stars, sun};
 
 /// How far a bake is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +56,10 @@ pub fn bake(
         inputs: files.inputs(),
         noon_elevation_rad: resolved.sun.noon_elevation_rad,
     };
-    let pack = Pack::build(info, sources)?;
+    let mut pack = Pack::build(info, sources)?;
+    if let Some(settings) = &resolved.field {
+        pack = pack.with_field(cloud_field(settings, base, resolved.seed)?)?;
+    }
     step("done", total)?;
     Ok(pack)
 }
@@ -105,6 +108,23 @@ pub fn skybox_faces(
     base: Option<&Path>,
 ) -> Result<Vec<Image>, BakeError> {
     skybox::images(settings, &skybox::read(settings, base)?, &|| Ok(()))
+}
+
+/// The field of clouds. `base` is the folder that relative paths of models start from.
+///
+/// # Errors
+/// [`BakeError::Read`], [`BakeError::NoBase`], [`BakeError::Model`] or [`BakeError::Field`].
+pub fn cloud_field(
+    settings: &FieldSettings,
+    _base: Option<&Path>,
+    seed: u64,
+) -> Result<Field, BakeError> {
+    let boxes = |source: &ModelSource| match source {
+        ModelSource::Boxes(boxes) => boxes.clone(),
+        ModelSource::File(_) => Vec::new(),
+    };
+    let models: Vec<_> = settings.models.iter().map(|m| boxes(&m.source)).collect();
+    field::field(settings, &models, seed)
 }
 
 /// The files that a recipe names.
