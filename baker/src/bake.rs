@@ -9,7 +9,7 @@ use welkin_pack::{Field, Format, Image, Pack, PackInfo, Role, Source};
 use crate::clouds::{self, photo};
 use crate::error::BakeError;
 use crate::load::{self, Picture};
-use crate::settings::{FieldSettings, ModelSource, PhotoSettings, Resolved, SkyboxSettings};
+use crate::settings::{FieldSettings, PhotoSettings, Resolved, SkyboxSettings};
 use crate::{fbm, field, flares, galaxy, layers, octaves, sky, skybox, stars, sun};
 
 /// How far a bake is.
@@ -58,7 +58,8 @@ pub fn bake(
     };
     let mut pack = Pack::build(info, sources)?;
     if let Some(settings) = &resolved.field {
-        pack = pack.with_field(cloud_field(settings, base, resolved.seed)?)?;
+        let field = field::field(settings, &files.models, resolved.seed)?;
+        pack = pack.with_field(field)?;
     }
     step("done", total)?;
     Ok(pack)
@@ -113,24 +114,21 @@ pub fn skybox_faces(
 /// The field of clouds. `base` is the folder that relative paths of models start from.
 ///
 /// # Errors
-/// [`BakeError::Read`], [`BakeError::NoBase`], [`BakeError::Model`] or [`BakeError::Field`].
+/// [`BakeError::Read`], [`BakeError::NoBase`], [`BakeError::Photo`] or [`BakeError::Model`] of a model's file,
+/// [`BakeError::Field`].
 pub fn cloud_field(
     settings: &FieldSettings,
-    _base: Option<&Path>,
+    base: Option<&Path>,
     seed: u64,
 ) -> Result<Field, BakeError> {
-    let boxes = |source: &ModelSource| match source {
-        ModelSource::Boxes(boxes) => boxes.clone(),
-        ModelSource::File(_) => Vec::new(),
-    };
-    let models: Vec<_> = settings.models.iter().map(|m| boxes(&m.source)).collect();
-    field::field(settings, &models, seed)
+    field::field(settings, &field::read(settings, base)?, seed)
 }
 
 /// The files that a recipe names.
 struct Files {
     photo: Option<Picture>,
     skybox: Vec<Picture>,
+    models: Vec<Picture>,
 }
 
 impl Files {
@@ -139,9 +137,12 @@ impl Files {
         let photo = photo.map(|file| Picture::read(base, file, load::PHOTO_KEY));
         let skybox = resolved.skybox.as_ref();
         let skybox = skybox.map(|settings| skybox::read(settings, base));
+        let models = resolved.field.as_ref();
+        let models = models.map(|settings| field::read(settings, base));
         Ok(Files {
             photo: photo.transpose()?,
             skybox: skybox.transpose()?.unwrap_or_default(),
+            models: models.transpose()?.unwrap_or_default(),
         })
     }
 
@@ -157,7 +158,8 @@ impl Files {
             key: picture.key.clone(),
             blake3: blake3::hash(&picture.bytes).to_hex().to_string(),
         };
-        self.photo.iter().chain(&self.skybox).map(input).collect()
+        let pictures = self.photo.iter().chain(&self.skybox);
+        pictures.chain(&self.models).map(input).collect()
     }
 }
 

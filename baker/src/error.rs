@@ -99,13 +99,15 @@ pub enum BakeError {
     },
     /// The field of clouds would be larger than it may be.
     #[error(
-        "{key}: the field needs more than {limit} {what}; lower its cover, density or copies, or raise `field.most_sprites`"
+        "{key}: the field needs {found} {what}, expected at most {limit}; lower its cover, density or copies, or raise `field.most_sprites`"
     )]
     Field {
         /// The entry of the recipe that asks for too much, such as `field.clouds.1`.
         key: String,
         /// Of what.
         what: &'static str,
+        /// How many there would be, or more.
+        found: usize,
         /// The most.
         limit: usize,
     },

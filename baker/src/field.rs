@@ -22,10 +22,11 @@ mod ground;
 pub(crate) mod kinds;
 pub(crate) mod light;
 mod maker;
+pub(crate) mod model;
 mod place;
 mod spread;
 
-pub(crate) use maker::field;
+pub(crate) use maker::{field, read};
 
 /// The grid that everything stands on, in steps a metre.
 const STEPS_A_M: f32 = 8.0;

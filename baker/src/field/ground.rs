@@ -6,7 +6,7 @@ use welkin_pack::field::{Cloud, SECTION_SIDE_M, Sprite};
 const CELLS_A_SECTION: usize = 64;
 
 /// Radius of what can be seen of a sprite, as a share of its size: it fades out towards its border.
-const SEEN: f32 = 0.4;
+pub(super) const SEEN: f32 = 0.4;
 
 /// A square of cells that repeats in both directions.
 pub(super) struct Ground {
@@ -43,6 +43,37 @@ impl Ground {
             return cells.map(middle).collect();
         }
         cells.filter(|i| !self.covered[*i]).map(middle).collect()
+    }
+
+    /// How many of some points around a place are free: 29 in a disc of this radius.
+    pub fn free_around(&self, [x, z]: [f32; 2], radius_m: f32) -> usize {
+        let steps = -3..=3_i32;
+        let points = steps
+            .clone()
+            .flat_map(|i| steps.clone().map(move |j| [i, j]));
+        let points = points.filter(|[i, j]| i * i + j * j <= 9);
+        let cell =
+            |c: f32, step: i32| libm::floorf((c + radius_m * step as f32 / 3.0) / cell_m()) as i64;
+        points
+            .filter(|[i, j]| !self.covered[self.index(cell(x, *i), cell(z, *j))])
+            .count()
+    }
+
+    /// Share of a rectangle that is free.
+    pub fn free_share(&self, [x, z]: [f32; 2], [width, depth]: [f32; 2]) -> f32 {
+        let cells = |c: f32, side: f32| {
+            let cell = |m: f32| libm::floorf(m / cell_m()) as i64;
+            cell(c - 0.5 * side)..=cell(c + 0.5 * side)
+        };
+        let (columns, rows) = (cells(x, width), cells(z, depth));
+        let (mut free, mut all) = (0, 0);
+        for row in rows {
+            for column in columns.clone() {
+                all += 1;
+                free += u32::from(!self.covered[self.index(column, row)]);
+            }
+        }
+        free as f32 / all as f32
     }
 
     /// Covers what is below a cloud.
@@ -85,9 +116,13 @@ impl Ground {
         }
     }
 
-    fn cover_cell(&mut self, column: i64, row: i64) {
+    fn index(&self, column: i64, row: i64) -> usize {
         let wrap = |i: i64| i.rem_euclid(self.side as i64) as usize;
-        let cell = wrap(row) * self.side + wrap(column);
+        wrap(row) * self.side + wrap(column)
+    }
+
+    fn cover_cell(&mut self, column: i64, row: i64) {
+        let cell = self.index(column, row);
         if !self.covered[cell] {
             self.covered[cell] = true;
             self.count += 1;

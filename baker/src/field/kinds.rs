@@ -32,6 +32,14 @@ pub(crate) const fn heights_m(kind: CloudKind) -> [f32; 2] {
     }
 }
 
+/// Whether its clouds are pieces of a sheet, and not bodies of their own.
+pub(super) const fn is_sheet(kind: CloudKind) -> bool {
+    matches!(
+        kind,
+        CloudKind::Stratus | CloudKind::Stratocumulus | CloudKind::Altocumulus
+    )
+}
+
 /// Boxes of one cloud of a layer: x and z about its origin, y above the sea.
 pub(super) fn boxes(layer: &CloudLayerSettings, stream: &mut Stream) -> Vec<BoxSettings> {
     let heights = [layer.base_m, layer.top_m];

@@ -53,7 +53,7 @@ pub(crate) fn default_layers() -> Vec<CloudLayerSettings> {
         }
     };
     vec![
-        layer(CloudKind::Cumulus, 0.3),
+        layer(CloudKind::Cumulus, 0.35),
         layer(CloudKind::Stratocumulus, 1.0),
     ]
 }

@@ -4,31 +4,59 @@
 //! of the ground that is below clouds when half of it is added: then showing the clouds whose rank is at most `c` covers the
 //! share `c`, to half a cloud. Layers go on where the one before has ended.
 
+use std::path::Path;
+
 use welkin_pack::Field;
 use welkin_pack::field::Cloud;
 
 use super::cloud::{self, Plan};
-use super::ground::Ground;
-use super::kinds;
+use super::ground::{Ground, SEEN};
 use super::spread::Spread;
+use super::{kinds, model};
 use crate::error::BakeError;
-use crate::settings::{BoxSettings, CloudLayerSettings, FieldSettings, ModelSettings};
+use crate::load::Picture;
+use crate::settings::{BoxSettings, CloudLayerSettings, FieldSettings, ModelSettings, ModelSource};
 use crate::stream::Stream;
 
 /// Cover that counts as full: the last gaps would each take a cloud of their own.
-const FULL: f32 = 0.995;
+const FULL: f32 = 0.99;
 
-/// Makes the field. `models` has the boxes of each model of the settings.
+/// A box of a sheet is needed where this share of what is below it is free.
+const LEAST_FREE: f32 = 0.3;
+
+/// Sprites that a piece of a sheet asks for at least. The cull takes some; a cloud has five or more.
+const LEAST_SPRITES: u32 = 12;
+
+/// The files that the settings name, in their order.
+///
+/// # Errors
+/// [`BakeError::Read`], [`BakeError::NoBase`] or [`BakeError::Photo`].
+pub(crate) fn read(
+    settings: &FieldSettings,
+    base: Option<&Path>,
+) -> Result<Vec<Picture>, BakeError> {
+    let files = settings.models.iter().enumerate();
+    files
+        .filter_map(|(index, model)| match &model.source {
+            ModelSource::File(file) => Some((index, file)),
+            ModelSource::Boxes(_) => None,
+        })
+        .map(|(index, file)| Picture::read(base, file, &format!("field.models[{index}].file")))
+        .collect()
+}
+
+/// Makes the field. `files` are those that [`read`] gives.
 ///
 /// Streams are named by the entry of the recipe and the number of the cloud, such as `field.clouds.0.12`.
 ///
 /// # Errors
-/// [`BakeError::Field`] if it would have more sprites than the settings allow, or more clouds or boxes than a pack holds.
+/// [`BakeError::Model`]; [`BakeError::Field`] if it would have more sprites than the settings allow, or more clouds or boxes than a pack holds.
 pub(crate) fn field(
     settings: &FieldSettings,
-    models: &[Vec<BoxSettings>],
+    files: &[Picture],
     seed: u64,
 ) -> Result<Field, BakeError> {
+    let models = models(settings, files)?;
     let ground = Ground::new(settings.sections);
     let mut maker = Maker {
         seed,
@@ -39,7 +67,7 @@ pub(crate) fn field(
         sprites: 0,
         boxes: 0,
     };
-    for (index, (model, boxes)) in settings.models.iter().zip(models).enumerate() {
+    for (index, (model, boxes)) in settings.models.iter().zip(&models).enumerate() {
         maker.add_copies(&format!("field.models.{index}"), model, boxes)?;
     }
     for (index, layer) in settings.layers.iter().enumerate() {
@@ -52,6 +80,34 @@ pub(crate) fn field(
         hours: settings.hours.clone(),
         clouds: maker.clouds,
     })
+}
+
+/// The boxes of every model. All their sprites together are within the limit, before the cull.
+fn models(settings: &FieldSettings, files: &[Picture]) -> Result<Vec<Vec<BoxSettings>>, BakeError> {
+    let mut files = files.iter();
+    let mut models = Vec::with_capacity(settings.models.len());
+    let mut sprites = 0;
+    for (index, model) in settings.models.iter().enumerate() {
+        let boxes = match &model.source {
+            ModelSource::Boxes(boxes) => boxes.clone(),
+            ModelSource::File(_) => match files.next() {
+                Some(file) => model::boxes(&file.bytes, &file.file)?,
+                None => Vec::new(),
+            },
+        };
+        let a_copy: u32 = boxes.iter().map(|b| b.sprites).sum();
+        sprites += a_copy as usize * model.copies as usize;
+        if sprites > settings.most_sprites as usize {
+            return Err(BakeError::Field {
+                key: format!("field.models[{index}]"),
+                what: "sprites",
+                found: sprites,
+                limit: settings.most_sprites as usize,
+            });
+        }
+        models.push(boxes);
+    }
+    Ok(models)
 }
 
 struct Maker {
@@ -117,9 +173,20 @@ impl Maker {
         places: &mut Stream,
         stream: &mut Stream,
     ) -> Result<(), BakeError> {
-        let mut cloud = cloud::cloud(plan, stream);
+        let place = self.spread.next(&self.ground, reach_m(plan.boxes), places);
+        let boxes = if kinds::is_sheet(plan.kind) {
+            needed(plan.boxes, place, &self.ground)
+        } else {
+            plan.boxes.to_vec()
+        };
+        let mut cloud = cloud::cloud(
+            &Plan {
+                boxes: &boxes,
+                ..*plan
+            },
+            stream,
+        );
         self.count(name, &cloud)?;
-        let place = self.spread.next(&self.ground.free(), places);
         cloud::move_to(&mut cloud, place);
         let before = self.ground.share();
         self.ground.cover(&cloud);
@@ -143,12 +210,42 @@ impl Maker {
                 return Err(BakeError::Field {
                     key: name.to_string(),
                     what,
+                    found,
                     limit,
                 });
             }
         }
         Ok(())
     }
+}
+
+/// How far boxes reach from the origin along the ground.
+fn reach_m(boxes: &[BoxSettings]) -> f32 {
+    let reach = |b: &BoxSettings, axis: usize| b.centre_m[axis].abs() + 0.5 * b.size_m[axis];
+    let reaches = boxes.iter().map(|b| reach(b, 0).max(reach(b, 2)));
+    reaches.fold(0.0, f32::max)
+}
+
+/// The boxes of a sheet that are over free ground, so that sprites do not lie on each other where pieces of it meet.
+/// There are always enough of them for a cloud.
+fn needed(boxes: &[BoxSettings], [x, z]: [f32; 2], ground: &Ground) -> Vec<BoxSettings> {
+    let free = |b: &BoxSettings| {
+        let sides = [0, 2].map(|axis| b.size_m[axis] + SEEN * b.width_m[1]);
+        ground.free_share([x + b.centre_m[0], z + b.centre_m[2]], sides)
+    };
+    let mut order: Vec<(usize, f32)> = boxes.iter().map(free).enumerate().collect();
+    order.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut sprites = 0;
+    order.retain(|(index, free)| {
+        let is_needed = *free >= LEAST_FREE || sprites < LEAST_SPRITES;
+        sprites += if is_needed { boxes[*index].sprites } else { 0 };
+        is_needed
+    });
+    order.sort_by_key(|(index, _)| *index);
+    order
+        .iter()
+        .map(|(index, _)| boxes[*index].clone())
+        .collect()
 }
 
 /// A box of a model after quarter turns about the vertical axis, from its origin at `base_m` above the sea.

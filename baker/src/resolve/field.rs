@@ -14,8 +14,8 @@ use crate::field::{kinds, light};
 use crate::recipe::{CloudLayer, Entry, FieldTable, HourTable, Model, Recipe};
 use crate::settings::{CloudLayerSettings, FieldSettings, ModelSettings, ModelSource};
 
-/// The most layers or models that a recipe may list.
-const MAX_ENTRIES: usize = 64;
+/// The most that a list of a recipe may have: layers, models, boxes of a model.
+const MAX_ENTRIES: usize = 256;
 
 /// Heights above the sea: clouds end at the tropopause, which is at 18 km at most.
 const HEIGHTS_M: [f32; 2] = [0.0, 20_000.0];
@@ -62,8 +62,8 @@ impl Recipe {
         resolve: impl Fn(&Recipe, &str, &T, Range<usize>) -> Result<R, RecipeError>,
     ) -> Result<Vec<R>, RecipeError> {
         let entries = entries.unwrap_or_default();
-        if let Some(entry) = entries.get(MAX_ENTRIES.max(MAX_HOURS)) {
-            let expected = format!("at most {}", MAX_ENTRIES.max(MAX_HOURS));
+        if let Some(entry) = entries.get(MAX_ENTRIES) {
+            let expected = format!("at most {MAX_ENTRIES}");
             return Err(self.refuse_at(key, entry.span(), entries.len(), expected));
         }
         let entries = entries.iter().enumerate();
@@ -174,6 +174,10 @@ impl Recipe {
             return Ok(light::default_hours());
         };
         let hours = self.each("field.hours", Some(entries), Recipe::hour)?;
+        if let Some(entry) = entries.get(MAX_HOURS) {
+            let expected = format!("at most {MAX_HOURS}");
+            return Err(self.refuse_at("field.hours", entry.span(), entries.len(), expected));
+        }
         let Some(first) = entries.first() else {
             let span = self.field_span();
             return Err(self.refuse_at("field.hours", span, "empty", "one hour or more"));

@@ -11,9 +11,9 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
     let width = between(stream, 1500.0, 2300.0);
     let depth = width * between(stream, 0.7, 0.95);
     let height = (top_m - base_m) * between(stream, 0.75, 1.0);
-    let look = Look::puffs((0.25 * width).clamp(350.0, 560.0));
+    let look = Look::puffs((0.28 * width).clamp(400.0, 620.0));
     let mut boxes = Vec::new();
-    foot(base_m, [width, 0.16 * height, depth], look, 0.9, &mut boxes);
+    foot(base_m, [width, 0.16 * height, depth], look, 1.2, &mut boxes);
     let towers = whole(stream, 3, 4);
     let first = between(stream, 0.0, 1.0);
     let mut group = 1;
@@ -36,12 +36,12 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
             ],
             foot_m: base_m + 0.1 * height,
             top_m: base_m + share * height,
-            width_m: width * between(stream, 0.45, 0.55),
+            width_m: width * between(stream, 0.52, 0.62),
             // A storey is about as high as a sprite and a half.
             storeys: (libm::roundf(share * height / 650.0) as u32).clamp(1, 8),
             group,
         };
-        tower.add(look, 0.9, stream, &mut boxes);
+        tower.add(look, 1.5, stream, &mut boxes);
         group += tower.groups();
     }
     boxes

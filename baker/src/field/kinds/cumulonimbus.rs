@@ -11,9 +11,9 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
     let width = between(stream, 3600.0, 4600.0);
     let depth = width * between(stream, 0.75, 0.95);
     let height = (top_m - base_m) * between(stream, 0.9, 1.0);
-    let look = Look::puffs(1000.0);
+    let look = Look::puffs(1250.0);
     let mut boxes = Vec::new();
-    foot(base_m, [width, 0.12 * height, depth], look, 1.0, &mut boxes);
+    foot(base_m, [width, 0.12 * height, depth], look, 1.5, &mut boxes);
     let towers = whole(stream, 3, 4);
     let first = between(stream, 0.0, 1.0);
     let mut group = 1;
@@ -39,14 +39,14 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
             top_m: base_m + share * height,
             width_m: width
                 * if i == 0 {
-                    0.62
+                    0.68
                 } else {
-                    between(stream, 0.42, 0.52)
+                    between(stream, 0.46, 0.56)
                 },
             storeys: (libm::roundf(share * height / 1100.0) as u32).clamp(1, 9),
             group,
         };
-        tower.add(look, 0.85, stream, &mut boxes);
+        tower.add(look, 1.8, stream, &mut boxes);
         group += tower.groups();
     }
     anvil([base_m, base_m + height], width, group, stream, &mut boxes);

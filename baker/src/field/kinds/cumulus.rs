@@ -11,9 +11,9 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
     let width = between(stream, 700.0, 1500.0);
     let depth = width * between(stream, 0.65, 0.95);
     let height = (width * between(stream, 0.45, 0.7)).min(top_m - base_m);
-    let look = Look::puffs((0.3 * width).clamp(220.0, 400.0));
+    let look = Look::puffs((0.27 * width).clamp(200.0, 380.0));
     let mut boxes = Vec::new();
-    foot(base_m, [width, 0.34 * height, depth], look, 0.9, &mut boxes);
+    foot(base_m, [width, 0.34 * height, depth], look, 1.1, &mut boxes);
     let heaps = whole(stream, 3, 5);
     let first = between(stream, 0.0, 1.0);
     for i in 0..heaps {
@@ -21,7 +21,7 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
         let out = if i == 0 {
             0.08
         } else {
-            between(stream, 0.22, 0.3)
+            between(stream, 0.2, 0.28)
         };
         let angle = TAU * (first + i as f32 / (heaps - 1) as f32 + between(stream, -0.08, 0.08));
         let share = if i == 0 {
@@ -36,11 +36,11 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
             ],
             foot_m: base_m + 0.2 * height,
             top_m: base_m + share * height,
-            width_m: width * between(stream, 0.38, 0.5),
+            width_m: width * between(stream, 0.4, 0.52),
             storeys: if i == 0 { 2 } else { 1 },
             group: 1 + i,
         };
-        heap.add(look, 0.9, stream, &mut boxes);
+        heap.add(look, 1.7, stream, &mut boxes);
     }
     boxes.push(fringe(base_m, width, height, stream));
     boxes

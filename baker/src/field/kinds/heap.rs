@@ -33,9 +33,9 @@ impl Heap {
         for i in 0..self.storeys {
             let middle = (i as f32 + 0.5) / self.storeys as f32;
             // The outline of an ellipse that stands on its wide part, with bulges.
-            let round = libm::sqrtf(1.0 - 0.75 * middle * middle);
+            let round = libm::sqrtf(1.0 - 0.7 * middle * middle);
             let width = self.width_m * round * between(stream, 0.88, 1.12);
-            let side = (width - 2.0 * inset).max(0.35 * width);
+            let side = (width - inset).max(0.5 * width);
             let depth = side * between(stream, 0.85, 1.15);
             let y = self.foot_m + storey * (i as f32 + 0.5);
             let group = self.group + i / 2;
@@ -48,8 +48,8 @@ impl Heap {
             let centre = [x, y + 0.5 * overlap, z];
             let size = [side, storey + overlap, depth];
             boxes.push(look.in_box(centre, size, group).filled(fill));
-            x += between(stream, -0.1, 0.1) * width;
-            z += between(stream, -0.1, 0.1) * width;
+            x += between(stream, -0.06, 0.06) * width;
+            z += between(stream, -0.06, 0.06) * width;
         }
     }
 }
@@ -65,7 +65,7 @@ pub(super) fn foot(
     let inset = 0.3 * look.width_m[1];
     let centre = [0.0, base_m + 0.5 * height, 0.0];
     for [long, short] in [[width, 0.6 * depth], [0.62 * width, depth]] {
-        let sides = [long, short].map(|side| (side - 2.0 * inset).max(0.4 * side));
+        let sides = [long, short].map(|side| (side - inset).max(0.5 * side));
         let size = [sides[0], height, sides[1]];
         let of_foot = look.in_box(centre, size, 0);
         boxes.push(of_foot.filled(fill).with_flat_bottom());

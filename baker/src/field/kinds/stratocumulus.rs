@@ -8,16 +8,16 @@ use crate::stream::Stream;
 
 /// Rolls of a patch, and lumps along the longest of them.
 const ROLLS: u32 = 3;
-const LUMPS: u32 = 5;
+const LUMPS: u32 = 4;
 
 /// From roll to roll, and from lump to lump along a roll, in metres.
-const ROLL_M: f32 = 560.0;
-const LUMP_M: f32 = 460.0;
+const ROLL_M: f32 = 720.0;
+const LUMP_M: f32 = 600.0;
 
 pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSettings> {
     let look = Look {
-        width_m: [400.0, 560.0],
-        height_m: [330.0, 450.0],
+        width_m: [520.0, 740.0],
+        height_m: [380.0, 520.0],
         category: Category::Cumulus,
         turn_rad: 0.6,
     };
@@ -37,7 +37,7 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
             ];
             let size = [0.7 * LUMP_M, thick, 0.45 * ROLL_M];
             let mut of_roll = look.in_box(centre, size, roll * LUMPS.div_ceil(2) + lump / 2);
-            of_roll.sprites = 3;
+            of_roll.sprites = 4;
             boxes.push(of_roll);
         }
     }

@@ -115,7 +115,7 @@ fn counts_that_lie_are_refused_before_they_are_believed() {
     );
     let error = blamed(|json| accessor(json, "TRANSLATION")["count"] = json!(60_000));
     assert!(
-        error.contains("sprites.TRANSLATION is 60000 elements at every 48 bytes"),
+        error.contains("sprites.TRANSLATION is 60000 elements at every 40 bytes"),
         "{error}"
     );
     let error = blamed(|json| accessor(json, "_CELL")["count"] = json!(3));
@@ -225,10 +225,10 @@ fn records_of_nonsense_are_refused() {
             "clouds[0].sprites[0].cell is 16, expected below 16",
         ),
         (32, &[0, 1], "sprites._CELL is 256"),
-        (36, &[9, 0], "sprites._GROUP is 9"),
-        (40, &[20, 0], "sprites._CLOUD is 20, expected below 20"),
+        (34, &[9, 0], "sprites._GROUP is 9"),
+        (36, &[20, 0], "sprites._CLOUD is 20, expected below 20"),
         (
-            44,
+            38,
             &[2, 0],
             "clouds[0].sprites[0].cloud_box is 2, expected below 2",
         ),

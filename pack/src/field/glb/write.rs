@@ -9,7 +9,7 @@ use super::document::{
 };
 use super::{BOXES, INSTANCING, SPRITES, container, quaternion};
 use crate::PackError;
-use crate::field::{Category, Cloud, Field};
+use crate::field::{Category, Field};
 
 /// Targets of buffer views.
 const ARRAY_BUFFER: u32 = 34962;
@@ -30,29 +30,29 @@ const CUBE_TRIANGLES: [u16; 36] = [
     7, 4, 7, 6,
 ];
 
-/// Attributes of a record: name, type, component type, where it begins. Each begins at a multiple of four bytes, as
-/// section 3.6.2.4 of the specification asks of vertex attributes.
+/// Attributes of a record: name, type, component type, where it begins.
 type Layout = &'static [(&'static str, &'static str, u32, u64)];
 
-const SPRITE_BYTES: u64 = 48;
+const SPRITE_BYTES: u64 = 40;
 const SPRITE_LAYOUT: Layout = &[
     ("TRANSLATION", "VEC3", FLOAT, 0),
     ("SCALE", "VEC3", FLOAT, 12),
     ("ROTATION", "VEC4", SHORT, 24),
     ("_CELL", "SCALAR", UNSIGNED_SHORT, 32),
-    ("_GROUP", "SCALAR", UNSIGNED_SHORT, 36),
-    ("_CLOUD", "SCALAR", UNSIGNED_SHORT, 40),
-    ("_BOX", "SCALAR", UNSIGNED_SHORT, 44),
+    ("_GROUP", "SCALAR", UNSIGNED_SHORT, 34),
+    ("_CLOUD", "SCALAR", UNSIGNED_SHORT, 36),
+    ("_BOX", "SCALAR", UNSIGNED_SHORT, 38),
 ];
 
-const BOX_BYTES: u64 = 40;
+/// The last two bytes of a box are empty: records begin at multiples of four.
+const BOX_BYTES: u64 = 36;
 const BOX_LAYOUT: Layout = &[
     ("TRANSLATION", "VEC3", FLOAT, 0),
     ("SCALE", "VEC3", FLOAT, 12),
     ("_CULL", "SCALAR", FLOAT, 24),
     ("_CATEGORY", "SCALAR", UNSIGNED_SHORT, 28),
-    ("_GROUP", "SCALAR", UNSIGNED_SHORT, 32),
-    ("_CLOUD", "SCALAR", UNSIGNED_SHORT, 36),
+    ("_GROUP", "SCALAR", UNSIGNED_SHORT, 30),
+    ("_CLOUD", "SCALAR", UNSIGNED_SHORT, 32),
 ];
 
 /// Encodes a field. `generator` is the program that does.
@@ -262,30 +262,23 @@ fn sprite_records(field: &Field) -> Vec<u8> {
     for (index, cloud) in field.clouds.iter().enumerate() {
         for sprite in &cloud.sprites {
             let [width, height] = sprite.size_m;
+            let [x, y, z, w] = quaternion(sprite.rotation_rad, cloud.kind.is_flat());
+            let of_box = cloud.boxes.get(usize::from(sprite.cloud_box));
             floats(&mut bytes, &sprite.centre_m);
             floats(&mut bytes, &[width, height, 1.0]);
-            let quaternion = quaternion(sprite.rotation_rad, cloud.kind.is_flat());
-            quaternion
+            [x, y, z, w]
                 .iter()
                 .for_each(|q| bytes.extend(q.to_le_bytes()));
-            numbers(
-                &mut bytes,
-                &[
-                    u32::from(sprite.cell),
-                    group_of(cloud, sprite.cloud_box),
-                    index as u32,
-                    u32::from(sprite.cloud_box),
-                ],
-            );
+            let numbers = [
+                u16::from(sprite.cell),
+                of_box.map_or(0, |of_box| of_box.group),
+                index as u16,
+                sprite.cloud_box,
+            ];
+            numbers.iter().for_each(|n| bytes.extend(n.to_le_bytes()));
         }
     }
     bytes
-}
-
-/// The group of a box; 0 of one that is not there.
-fn group_of(cloud: &Cloud, of_box: u16) -> u32 {
-    let of_box = cloud.boxes.get(usize::from(of_box));
-    of_box.map_or(0, |of_box| u32::from(of_box.group))
 }
 
 fn box_records(field: &Field) -> Vec<u8> {
@@ -296,11 +289,9 @@ fn box_records(field: &Field) -> Vec<u8> {
             floats(&mut bytes, &of_cloud.size_m);
             floats(&mut bytes, &[of_cloud.cull_m]);
             let category = Category::ALL.iter().position(|c| *c == of_cloud.category);
-            let group = u32::from(of_cloud.group);
-            numbers(
-                &mut bytes,
-                &[category.unwrap_or(0) as u32, group, index as u32],
-            );
+            let category = category.unwrap_or(0) as u16;
+            let numbers = [category, of_cloud.group, index as u16, 0];
+            numbers.iter().for_each(|n| bytes.extend(n.to_le_bytes()));
         }
     }
     bytes
@@ -308,9 +299,4 @@ fn box_records(field: &Field) -> Vec<u8> {
 
 fn floats(bytes: &mut Vec<u8>, values: &[f32]) {
     values.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
-}
-
-/// 16-bit numbers, each filled up to four bytes.
-fn numbers(bytes: &mut Vec<u8>, values: &[u32]) {
-    values.iter().for_each(|n| bytes.extend(n.to_le_bytes()));
 }
