@@ -44,8 +44,8 @@ pub use error::{BakeError, RecipeError};
 pub use load::read_photo;
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
-    BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldSettings, FlareSettings,
-    FractalSettings, GalaxySettings, GradientSettings, LayerSettings, LayersSettings,
-    ModelSettings, ModelSource, PhotoSettings, Resolved, SkySettings, SkyboxPicture,
-    SkyboxSettings, StarSettings, SunSettings,
+    BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound, FieldSettings,
+    FlareSettings, FractalSettings, GalaxySettings, GradientSettings, LayerSettings,
+    LayersSettings, ModelSettings, ModelSource, PhotoSettings, Resolved, SkySettings,
+    SkyboxPicture, SkyboxSettings, StarSettings, SunSettings,
 };

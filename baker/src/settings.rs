@@ -4,7 +4,9 @@ mod field;
 
 use welkin_pack::Format;
 
-pub use field::{BoxSettings, CloudLayerSettings, FieldSettings, ModelSettings, ModelSource};
+pub use field::{
+    BoxSettings, CloudLayerSettings, FieldBound, FieldSettings, ModelSettings, ModelSource,
+};
 
 /// Everything a bake needs to know, checked.
 #[derive(Clone, Debug, PartialEq)]

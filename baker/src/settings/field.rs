@@ -1,6 +1,9 @@
 //! A field of clouds.
 
-use welkin_pack::field::{COLOUR_LEVELS, Category, CloudKind, ColourLevel, Hour};
+use welkin_pack::field::{
+    COLOUR_LEVELS, Category, Cloud, CloudBox, CloudKind, ColourLevel, Hour, Sprite,
+};
+use welkin_pack::limits::{MAX_BOXES, MAX_CLOUDS};
 
 /// A field of clouds.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +19,43 @@ pub struct FieldSettings {
     /// Light over the day.
     pub hours: Vec<Hour>,
 }
+
+/// The most that a field may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FieldBound {
+    /// Clouds.
+    pub clouds: usize,
+    /// Boxes.
+    pub boxes: usize,
+    /// Sprites.
+    pub sprites: usize,
+    /// Bytes of memory while it is made and written: what a cloud, a box and a sprite take in the field and in its file.
+    pub bytes: usize,
+}
+
+impl FieldSettings {
+    /// The most that the field may be, said before anything is made. No box is without a sprite, and no cloud without a box.
+    pub fn bound(&self) -> FieldBound {
+        let sprites = self.most_sprites as usize;
+        let (boxes, clouds) = (sprites.min(MAX_BOXES), sprites.min(MAX_CLOUDS));
+        FieldBound {
+            clouds,
+            boxes,
+            sprites,
+            bytes: sprites * SPRITE_BYTES + boxes * BOX_BYTES + clouds * CLOUD_BYTES,
+        }
+    }
+}
+
+/// A sprite is in a list twice while it is culled, and in the file once: 40 bytes.
+const SPRITE_BYTES: usize = 2 * size_of::<Sprite>() + 40;
+
+/// A box is in the field and in the file (36 bytes), and may have a shading group of its own: three numbers, there
+/// and as text.
+const BOX_BYTES: usize = size_of::<CloudBox>() + 36 + 12 + 48;
+
+/// A cloud is in the field, and in the file as some words.
+const CLOUD_BYTES: usize = size_of::<Cloud>() + 128;
 
 /// A layer that the field maker fills.
 #[derive(Clone, Debug, PartialEq)]
