@@ -102,7 +102,7 @@ pub enum BakeError {
         "{key}: the field needs {found} {what}, expected at most {limit}; lower its cover, density or copies, or raise `field.most_sprites`"
     )]
     Field {
-        /// The entry of the recipe that asks for too much, such as `field.clouds.1`.
+        /// The entry of the recipe that asks for too much, such as `field.clouds[1]`.
         key: String,
         /// Of what.
         what: &'static str,

@@ -84,7 +84,7 @@ impl Ground {
     }
 
     /// A facing sprite, from below turned in any way, is a disc as large as its ellipse; a flat one is the ellipse.
-    fn cover_by(&mut self, sprite: &Sprite, is_flat: bool) {
+    pub fn cover_by(&mut self, sprite: &Sprite, is_flat: bool) {
         let [mut a, mut b] = sprite.size_m.map(|side| SEEN * side);
         let (mut sin, mut cos) = (0.0, 1.0);
         if is_flat {

@@ -47,7 +47,7 @@ pub(crate) fn read(
 
 /// Makes the field. `files` are those that [`read`] gives.
 ///
-/// Streams are named by the entry of the recipe and the number of the cloud, such as `field.clouds.0.12`.
+/// Streams are named by the entry of the recipe and the number of the cloud, such as `field.clouds[0].12`.
 ///
 /// # Errors
 /// [`BakeError::Model`]; [`BakeError::Field`] if it would have more sprites than the settings allow, or more clouds or boxes than a pack holds.
@@ -68,10 +68,10 @@ pub(crate) fn field(
         boxes: 0,
     };
     for (index, (model, boxes)) in settings.models.iter().zip(&models).enumerate() {
-        maker.add_copies(&format!("field.models.{index}"), model, boxes)?;
+        maker.add_copies(&format!("field.models[{index}]"), model, boxes)?;
     }
     for (index, layer) in settings.layers.iter().enumerate() {
-        maker.add_layer(&format!("field.clouds.{index}"), layer)?;
+        maker.add_layer(&format!("field.clouds[{index}]"), layer)?;
     }
     // Only a rank that the recipe gives can be out of order.
     maker.clouds.sort_by(|a, b| a.rank.total_cmp(&b.rank));

@@ -4,6 +4,8 @@
 //! transforms of the node and of those above it; so no buffer is read. Its custom properties, `extras`, say the rest.
 
 mod extras;
+#[cfg(test)]
+mod tests;
 
 use gltf::{Gltf, Node, Semantic};
 

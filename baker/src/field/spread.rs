@@ -59,25 +59,45 @@ mod tests {
     use super::*;
 
     #[test]
-    fn any_first_few_places_are_farther_apart_than_chance_would_put_them() {
+    fn places_are_farther_from_those_before_than_chance_would_put_them() {
         let ground = Ground::new(2);
         let mut spread = Spread::new(ground.side_m());
         let mut stream = Stream::new(1, "test");
-        for count in 1..=64 {
-            let before = Spread {
+        let mut sum = 0.0;
+        let count = 64;
+        spread.next(&ground, 500.0, &mut stream);
+        for before in 1..=count {
+            let known = Spread {
                 side_m: spread.side_m,
                 places: spread.places.clone(),
             };
             let place = spread.next(&ground, 500.0, &mut stream);
-            if count > 1 {
-                // Of random places the nearest of n is half the mean spacing away on average (P. J. Clark, F. C. Evans,
-                // "Distance to Nearest Neighbor", Ecology 35, 1954); of the best of twelve no less than that.
-                let spacing = ground.side_m() / libm::sqrtf(count as f32);
-                assert!(
-                    libm::sqrtf(before.nearest(place)) > 0.5 * spacing,
-                    "{count}"
-                );
-            }
+            let spacing = ground.side_m() / libm::sqrtf(before as f32);
+            sum += libm::sqrtf(known.nearest(place)) / spacing;
+        }
+        // The nearest of random places is half the spacing away, give or take 0.26 (P. J. Clark, F. C. Evans, "Distance to
+        // Nearest Neighbor", Ecology 35, 1954); four times 0.26 / sqrt(64) more than that.
+        let mean = sum / count as f32;
+        assert!(mean > 0.63, "{mean}");
+    }
+
+    #[test]
+    fn free_ground_comes_first() {
+        let mut ground = Ground::new(1);
+        let sprite = welkin_pack::field::Sprite {
+            centre_m: [1000.0, 0.0, 2000.0],
+            size_m: [4000.0, 4000.0],
+            rotation_rad: 0.0,
+            cell: 0,
+            cloud_box: 0,
+        };
+        ground.cover_by(&sprite, false);
+        let mut spread = Spread::new(ground.side_m());
+        let mut stream = Stream::new(1, "test");
+        for _ in 0..8 {
+            let [x, z] = spread.next(&ground, 100.0, &mut stream);
+            let (dx, dz) = (x - 1000.0, z - 2000.0);
+            assert!(libm::sqrtf(dx * dx + dz * dz) > 1600.0, "{x} {z}");
         }
     }
 }
