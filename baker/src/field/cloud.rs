@@ -41,7 +41,8 @@ pub(super) fn cloud(plan: &Plan, stream: &mut Stream) -> Cloud {
     let centres = (0..groups.len()).map(|group| {
         let of_group = cloud.boxes.iter().filter(|b| usize::from(b.group) == group);
         let (centre, _) = bounds(&of_group.copied().collect::<Vec<_>>());
-        centre.map(snapped)
+        // A metre is nothing to a shade, and its text is shorter.
+        centre.map(libm::roundf)
     });
     cloud.groups_m = centres.collect();
     cloud

@@ -190,7 +190,7 @@ impl Maker {
         cloud::move_to(&mut cloud, place);
         let before = self.ground.share();
         self.ground.cover(&cloud);
-        cloud.rank = rank.unwrap_or(0.5 * (before + self.ground.share()));
+        cloud.rank = rank.unwrap_or(rounded(0.5 * (before + self.ground.share())));
         self.clouds.push(cloud);
         Ok(())
     }
@@ -217,6 +217,11 @@ impl Maker {
         }
         Ok(())
     }
+}
+
+/// To a few places: there are some tens of thousands of cells of ground.
+fn rounded(rank: f32) -> f32 {
+    libm::roundf(rank * 1e5) / 1e5
 }
 
 /// How far boxes reach from the origin along the ground.

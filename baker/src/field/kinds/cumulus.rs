@@ -40,7 +40,7 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
             storeys: if i == 0 { 2 } else { 1 },
             group: 1 + i,
         };
-        heap.add(look, 1.7, stream, &mut boxes);
+        heap.add(look, 1.5, stream, &mut boxes);
     }
     boxes.push(fringe(base_m, width, height, stream));
     boxes
