@@ -2,11 +2,16 @@
 
 use welkin_pack::field::{Cloud, SECTION_SIDE_M, Sprite};
 
+use crate::stream::Stream;
+
 /// Cells along a side of a section: 62.5 m each, well below the smallest sprites.
 const CELLS_A_SECTION: usize = 64;
 
 /// Radius of what can be seen of a sprite, as a share of its size: it fades out towards its border.
 pub(super) const SEEN: f32 = 0.4;
+
+/// Cells that are looked at before all free ones are listed.
+const TRIES: usize = 64;
 
 /// A square of cells that repeats in both directions.
 pub(super) struct Ground {
@@ -35,14 +40,25 @@ impl Ground {
         self.side as f32 * cell_m()
     }
 
-    /// Middles of the cells that no cloud covers, in metres; of all cells if there are none.
-    pub fn free(&self) -> Vec<[f32; 2]> {
-        let middle = |i: usize| [i % self.side, i / self.side].map(|c| (c as f32 + 0.5) * cell_m());
-        let cells = 0..self.covered.len();
-        if self.count == self.covered.len() {
-            return cells.map(middle).collect();
+    /// The middle of a random cell that no cloud covers, in metres; of any cell if there is none.
+    pub fn free_place(&self, stream: &mut Stream) -> [f32; 2] {
+        let mut one_of = |count: usize| ((stream.unit() * count as f64) as usize).min(count - 1);
+        let all = self.covered.len();
+        for _ in 0..TRIES {
+            let cell = one_of(all);
+            if !self.covered[cell] {
+                return self.middle(cell);
+            }
         }
-        cells.filter(|i| !self.covered[*i]).map(middle).collect()
+        let free: Vec<usize> = (0..all).filter(|cell| !self.covered[*cell]).collect();
+        match free.len() {
+            0 => self.middle(one_of(all)),
+            count => self.middle(free[one_of(count)]),
+        }
+    }
+
+    fn middle(&self, cell: usize) -> [f32; 2] {
+        [cell % self.side, cell / self.side].map(|c| (c as f32 + 0.5) * cell_m())
     }
 
     /// How many of some points around a place are free: 29 in a disc of this radius.
@@ -170,12 +186,20 @@ mod tests {
     fn a_flat_sprite_is_turned_from_east_towards_north() {
         let mut ground = Ground::new(1);
         ground.cover_by(&sprite([2000.0, 0.0, 2000.0], [3000.0, 300.0], 0.785), true);
-        let free = ground.free();
-        let is_free = |x: f32, z: f32| {
-            free.iter()
-                .any(|[a, b]| (a - x).abs() < 32.0 && (b - z).abs() < 32.0)
-        };
+        let is_free = |x: f32, z: f32| ground.free_share([x, z], [0.0; 2]) == 1.0;
         assert!(!is_free(2500.0, 1500.0) && !is_free(1500.0, 2500.0));
         assert!(is_free(2500.0, 2500.0) && is_free(1500.0, 1500.0));
+    }
+
+    #[test]
+    fn free_places_are_free_however_few_there_are() {
+        let mut ground = Ground::new(1);
+        let mut stream = Stream::new(1, "test");
+        ground.covered.fill(true);
+        ground.covered[1234] = false;
+        assert_eq!(ground.free_place(&mut stream), ground.middle(1234));
+        ground.covered[1234] = true;
+        let [x, z] = ground.free_place(&mut stream);
+        assert!((0.0..4000.0).contains(&x) && (0.0..4000.0).contains(&z));
     }
 }

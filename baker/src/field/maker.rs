@@ -24,8 +24,11 @@ const FULL: f32 = 0.99;
 /// A box of a sheet is needed where this share of what is below it is free.
 const LEAST_FREE: f32 = 0.3;
 
-/// Sprites that a piece of a sheet asks for at least. The cull takes some; a cloud has five or more.
-const LEAST_SPRITES: u32 = 12;
+/// Sprites of a piece of a sheet: as few as the article's clouds have.
+const LEAST_SPRITES: usize = 5;
+
+/// Sprites that it asks for at least, since the cull takes some.
+const LEAST_ASKED: u32 = 12;
 
 /// The files that the settings name, in their order.
 ///
@@ -174,18 +177,15 @@ impl Maker {
         stream: &mut Stream,
     ) -> Result<(), BakeError> {
         let place = self.spread.next(&self.ground, reach_m(plan.boxes), places);
-        let boxes = if kinds::is_sheet(plan.kind) {
-            needed(plan.boxes, place, &self.ground)
-        } else {
-            plan.boxes.to_vec()
-        };
-        let mut cloud = cloud::cloud(
-            &Plan {
-                boxes: &boxes,
-                ..*plan
-            },
-            stream,
-        );
+        let mut cloud = cloud::cloud(plan, stream);
+        if kinds::is_sheet(plan.kind) {
+            let boxes = &needed(plan.boxes, place, &self.ground);
+            let piece = cloud::cloud(&Plan { boxes, ..*plan }, stream);
+            // The cull may take what is needed; then it is the whole piece.
+            if piece.sprites.len() >= LEAST_SPRITES {
+                cloud = piece;
+            }
+        }
         self.count(name, &cloud)?;
         cloud::move_to(&mut cloud, place);
         let before = self.ground.share();
@@ -242,7 +242,7 @@ fn needed(boxes: &[BoxSettings], [x, z]: [f32; 2], ground: &Ground) -> Vec<BoxSe
     order.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut sprites = 0;
     order.retain(|(index, free)| {
-        let is_needed = *free >= LEAST_FREE || sprites < LEAST_SPRITES;
+        let is_needed = *free >= LEAST_FREE || sprites < LEAST_ASKED;
         sprites += if is_needed { boxes[*index].sprites } else { 0 };
         is_needed
     });

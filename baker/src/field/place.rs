@@ -9,8 +9,11 @@ use super::snapped;
 use crate::settings::BoxSettings;
 use crate::stream::Stream;
 
-/// Height of a flat-bottomed sprite's middle above its flat edge, as a share of its height.
-pub(super) const FLAT_EDGE: f32 = 0.3;
+/// How far the flat edge of the flat-bottomed picture is below its middle, as a share of its height.
+const FLAT_EDGE: f32 = 0.1;
+
+/// How far below its middle another picture is still dense.
+const DENSE_EDGE: f32 = 0.3;
 
 /// The share of a flat-bottomed box, from below, whose sprites are flat.
 const FLAT_SHARE: f32 = 1.0 / 3.0;
@@ -46,9 +49,13 @@ fn sprite(settings: &BoxSettings, stored: &CloudBox, index: u16, stream: &mut St
     if settings.flat_bottom {
         let half = 0.5 * stored.size_m[1];
         let (low, high) = (stored.centre_m[1] - half, stored.centre_m[1] + half);
-        // Nothing hangs below the base, and what is flat ends on it.
-        let base = snapped(low + FLAT_EDGE * size_m[1]).min(high);
-        centre_m[1] = if is_flat { base } else { centre_m[1].max(base) };
+        // What is flat ends on the base, and nothing dense hangs below it.
+        let above = |share: f32| snapped(low + share * size_m[1]).min(high);
+        centre_m[1] = if is_flat {
+            above(FLAT_EDGE)
+        } else {
+            centre_m[1].max(above(DENSE_EDGE))
+        };
     }
     let (cell, turn) = if is_flat {
         (
@@ -165,14 +172,14 @@ mod tests {
             ..large()
         });
         let low = stored.centre_m[1] - 0.5 * stored.size_m[1];
-        let edge = |s: &Sprite| s.centre_m[1] - FLAT_EDGE * s.size_m[1] - low;
+        let edge = |s: &Sprite, share: f32| s.centre_m[1] - share * s.size_m[1] - low;
         let (flat, others): (Vec<_>, Vec<_>) = sprites.iter().partition(|s| s.cell == 3);
         assert!((flat.len() as f32 / 4000.0 - FLAT_SHARE).abs() < 0.03);
         // Half a step of the grid.
         assert!(
             flat.iter()
-                .all(|s| edge(s).abs() <= 0.0625 && s.rotation_rad.abs() < 0.054)
+                .all(|s| edge(s, FLAT_EDGE).abs() <= 0.0625 && s.rotation_rad.abs() < 0.054)
         );
-        assert!(others.iter().all(|s| edge(s) >= -0.0625));
+        assert!(others.iter().all(|s| edge(s, DENSE_EDGE) >= -0.0625));
     }
 }

@@ -26,11 +26,9 @@ impl Spread {
 
     /// The next place, for a cloud that reaches `reach_m` from its middle.
     pub fn next(&mut self, ground: &Ground, reach_m: f32, stream: &mut Stream) -> [f32; 2] {
-        let free = ground.free();
         let mut best = ([0.0; 2], (0, -1.0));
         for _ in 0..CANDIDATES {
-            let index = (stream.unit() * free.len() as f64) as usize;
-            let place = free[index.min(free.len() - 1)];
+            let place = ground.free_place(stream);
             let worth = (ground.free_around(place, reach_m), self.nearest(place));
             if worth > best.1 {
                 best = (place, worth);
