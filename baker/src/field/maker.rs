@@ -53,7 +53,8 @@ pub(crate) fn read(
 /// Streams are named by the entry of the recipe and the number of the cloud, such as `field.clouds[0].12`.
 ///
 /// # Errors
-/// [`BakeError::Model`]; [`BakeError::Field`] if it would have more sprites than the settings allow, or more clouds or boxes than a pack holds.
+/// [`BakeError::Model`]; [`BakeError::Field`] if it would have more sprites than the settings allow, or more clouds or boxes
+/// than a pack holds.
 pub(crate) fn field(
     settings: &FieldSettings,
     files: &[Picture],
@@ -113,6 +114,15 @@ fn models(settings: &FieldSettings, files: &[Picture]) -> Result<Vec<Vec<BoxSett
     Ok(models)
 }
 
+/// Who asks for a cloud.
+struct Order<'a> {
+    /// The entry of the recipe.
+    name: &'a str,
+    rank: Option<f32>,
+    /// Whether boxes that are not needed may be left out: not an artist's.
+    is_piece: bool,
+}
+
 struct Maker {
     seed: u64,
     most_sprites: usize,
@@ -126,6 +136,11 @@ struct Maker {
 impl Maker {
     fn add_layer(&mut self, name: &str, layer: &CloudLayerSettings) -> Result<(), BakeError> {
         let mut places = Stream::new(self.seed, name);
+        let order = Order {
+            name,
+            rank: None,
+            is_piece: kinds::is_sheet(layer.kind),
+        };
         let mut number = 0;
         while self.ground.share() < layer.cover.min(FULL) {
             let stream = &mut Stream::new(self.seed, &format!("{name}.{number}"));
@@ -134,7 +149,7 @@ impl Maker {
                 levels: layer.levels,
                 boxes: &kinds::boxes(layer, stream),
             };
-            self.add(name, &plan, None, &mut places, stream)?;
+            self.add(&order, &plan, &mut places, stream)?;
             number += 1;
         }
         Ok(())
@@ -147,6 +162,11 @@ impl Maker {
         boxes: &[BoxSettings],
     ) -> Result<(), BakeError> {
         let mut places = Stream::new(self.seed, name);
+        let order = Order {
+            name,
+            rank: model.rank,
+            is_piece: false,
+        };
         for number in 0..model.copies {
             let stream = &mut Stream::new(self.seed, &format!("{name}.{number}"));
             let turn = if model.copies == 1 {
@@ -163,22 +183,21 @@ impl Maker {
                 levels: model.levels,
                 boxes: &boxes,
             };
-            self.add(name, &plan, model.rank, &mut places, stream)?;
+            self.add(&order, &plan, &mut places, stream)?;
         }
         Ok(())
     }
 
     fn add(
         &mut self,
-        name: &str,
+        order: &Order,
         plan: &Plan,
-        rank: Option<f32>,
         places: &mut Stream,
         stream: &mut Stream,
     ) -> Result<(), BakeError> {
         let place = self.spread.next(&self.ground, reach_m(plan.boxes), places);
         let mut cloud = cloud::cloud(plan, stream);
-        if kinds::is_sheet(plan.kind) {
+        if order.is_piece {
             let boxes = &needed(plan.boxes, place, &self.ground);
             let piece = cloud::cloud(&Plan { boxes, ..*plan }, stream);
             // The cull may take what is needed; then it is the whole piece.
@@ -186,10 +205,11 @@ impl Maker {
                 cloud = piece;
             }
         }
-        self.count(name, &cloud)?;
+        self.count(order.name, &cloud)?;
         cloud::move_to(&mut cloud, place);
         let before = self.ground.share();
         self.ground.cover(&cloud);
+        let rank = order.rank;
         cloud.rank = rank.unwrap_or(rounded(0.5 * (before + self.ground.share())));
         self.clouds.push(cloud);
         Ok(())

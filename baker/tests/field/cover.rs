@@ -116,3 +116,14 @@ fn a_model_keeps_the_rank_that_it_is_given() {
     let congestus = field.clouds.iter().filter(|c| c.boxes.len() == 9);
     assert!(congestus.count() >= 6);
 }
+
+#[test]
+fn an_artists_sheet_keeps_all_its_boxes_where_it_meets_another() {
+    let of_box = |x: i32| {
+        format!("[[field.models.boxes]]\ncentre_m = [{x}, 100, 0]\nsize_m = [900, 200, 900]\n")
+    };
+    let boxes: String = (0..4).map(|i| of_box(900 * i)).collect();
+    let model = format!("[[field.models]]\nkind = \"stratus\"\ncopies = 20\n{boxes}");
+    let field = field(&format!("[field]\nsections = 1\n{model}"));
+    assert!(field.clouds.iter().all(|cloud| cloud.boxes.len() == 4));
+}

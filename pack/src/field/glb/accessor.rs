@@ -1,7 +1,7 @@
 //! Attributes of instances: accessors resolved to numbers, every offset looked at before it is used.
 
 use super::document::{Accessor, Document, FLOAT, SHORT, UNSIGNED_SHORT};
-use super::{BOXES, INSTANCING, SPRITES};
+use super::{INSTANCING, SPRITES};
 use crate::PackError;
 use crate::limits::{MAX_BOXES, MAX_SPRITES};
 
@@ -44,7 +44,6 @@ impl<'a> Instances<'a> {
         } else {
             MAX_BOXES
         };
-        debug_assert!(node == SPRITES || node == BOXES);
         if count > most as u64 {
             return Err(PackError::TooLarge {
                 file: file.to_string(),
