@@ -97,10 +97,11 @@ gpu-tools:
 	  || [ "$$(uname -s)" != Linux ] \
 	  || scripts/apt-install mesa-vulkan-drivers libvulkan1
 
-# Node.js runs an independent KTX2 reader.
+# Node.js runs independent readers of KTX2 and glTF.
 node-tools:
 	@command -v node >/dev/null && command -v npm >/dev/null || scripts/apt-install nodejs npm
-	@[ -d tests/node/node_modules/ktx-parse ] || npm --prefix tests/node ci --no-audit --no-fund --silent
+	@[ -d tests/node/node_modules/ktx-parse ] && [ -d tests/node/node_modules/gltf-validator ] \
+	  || npm --prefix tests/node ci --no-audit --no-fund --silent
 
 clean: ## Remove what was made
 	$(CARGO) clean

@@ -4,13 +4,13 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use welkin_pack::manifest::Input;
-use welkin_pack::{Format, Image, Pack, PackInfo, Role, Source};
+use welkin_pack::{Field, Format, Image, Pack, PackInfo, Role, Source};
 
 use crate::clouds::{self, photo};
 use crate::error::BakeError;
 use crate::load::{self, Picture};
-use crate::settings::{PhotoSettings, Resolved, SkyboxSettings};
-use crate::{fbm, flares, galaxy, layers, octaves, sky, skybox, stars, sun};
+use crate::settings::{FieldSettings, PhotoSettings, Resolved, SkyboxSettings};
+use crate::{fbm, field, flares, galaxy, layers, octaves, sky, skybox, stars, sun};
 
 /// How far a bake is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +56,11 @@ pub fn bake(
         inputs: files.inputs(),
         noon_elevation_rad: resolved.sun.noon_elevation_rad,
     };
-    let pack = Pack::build(info, sources)?;
+    let mut pack = Pack::build(info, sources)?;
+    if let Some(settings) = &resolved.field {
+        let field = field::field(settings, &files.models, resolved.seed)?;
+        pack = pack.with_field(field)?;
+    }
     step("done", total)?;
     Ok(pack)
 }
@@ -107,10 +111,24 @@ pub fn skybox_faces(
     skybox::images(settings, &skybox::read(settings, base)?, &|| Ok(()))
 }
 
+/// The field of clouds. `base` is the folder that relative paths of models start from.
+///
+/// # Errors
+/// [`BakeError::Read`], [`BakeError::NoBase`], [`BakeError::Photo`] or [`BakeError::Model`] of a model's file,
+/// [`BakeError::Field`].
+pub fn cloud_field(
+    settings: &FieldSettings,
+    base: Option<&Path>,
+    seed: u64,
+) -> Result<Field, BakeError> {
+    field::field(settings, &field::read(settings, base)?, seed)
+}
+
 /// The files that a recipe names.
 struct Files {
     photo: Option<Picture>,
     skybox: Vec<Picture>,
+    models: Vec<Picture>,
 }
 
 impl Files {
@@ -119,9 +137,12 @@ impl Files {
         let photo = photo.map(|file| Picture::read(base, file, load::PHOTO_KEY));
         let skybox = resolved.skybox.as_ref();
         let skybox = skybox.map(|settings| skybox::read(settings, base));
+        let models = resolved.field.as_ref();
+        let models = models.map(|settings| field::read(settings, base));
         Ok(Files {
             photo: photo.transpose()?,
             skybox: skybox.transpose()?.unwrap_or_default(),
+            models: models.transpose()?.unwrap_or_default(),
         })
     }
 
@@ -137,7 +158,8 @@ impl Files {
             key: picture.key.clone(),
             blake3: blake3::hash(&picture.bytes).to_hex().to_string(),
         };
-        self.photo.iter().chain(&self.skybox).map(input).collect()
+        let pictures = self.photo.iter().chain(&self.skybox);
+        pictures.chain(&self.models).map(input).collect()
     }
 }
 

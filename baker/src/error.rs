@@ -85,6 +85,32 @@ pub enum BakeError {
         /// The key in the recipe that names it.
         key: String,
     },
+    /// A model of a cloud is not fit for use.
+    #[error("{file}: {key} is {found}, expected {expected}")]
+    Model {
+        /// The glTF file.
+        file: String,
+        /// What in it.
+        key: String,
+        /// As it is.
+        found: String,
+        /// As it should be.
+        expected: String,
+    },
+    /// The field of clouds would be larger than it may be.
+    #[error(
+        "{key}: the field needs {found} {what}, expected at most {limit}; lower its cover, density or copies, or raise `field.most_sprites`"
+    )]
+    Field {
+        /// The entry of the recipe that asks for too much, such as `field.clouds[1]`.
+        key: String,
+        /// Of what.
+        what: &'static str,
+        /// How many there would be, or more.
+        found: usize,
+        /// The most.
+        limit: usize,
+    },
     /// The images were refused as a pack.
     #[error(transparent)]
     Pack(#[from] PackError),

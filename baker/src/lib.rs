@@ -21,6 +21,7 @@ mod bake;
 mod clouds;
 mod error;
 mod fbm;
+mod field;
 mod filter;
 mod flares;
 mod fractal;
@@ -38,12 +39,13 @@ mod stars;
 mod stream;
 mod sun;
 
-pub use bake::{Progress, bake, photo_channel, skybox_faces, sources};
+pub use bake::{Progress, bake, cloud_field, photo_channel, skybox_faces, sources};
 pub use error::{BakeError, RecipeError};
 pub use load::read_photo;
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
-    CloudSettings, FbmSettings, FlareSettings, FractalSettings, GalaxySettings, GradientSettings,
-    LayerSettings, LayersSettings, PhotoSettings, Resolved, SkySettings, SkyboxPicture,
-    SkyboxSettings, StarSettings, SunSettings,
+    BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound, FieldSettings,
+    FlareSettings, FractalSettings, GalaxySettings, GradientSettings, LayerSettings,
+    LayersSettings, ModelSettings, ModelSource, PhotoSettings, Resolved, SkySettings,
+    SkyboxPicture, SkyboxSettings, StarSettings, SunSettings,
 };

@@ -3,12 +3,16 @@
 //! Scalars are kept as whatever TOML value stands there, with its place in the text; `resolve.rs`
 //! checks types and ranges together, so that both kinds of mistake are told in one form.
 
+mod field;
+
 use std::ops::Range;
 
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
 use crate::error::RecipeError;
+
+pub(crate) use field::{BoxTable, CloudLayer, FieldTable, HourTable, Model};
 
 /// The recipe that is used when none is given; it spells out every default.
 pub const DEFAULT_RECIPE: &str = include_str!("../../assets-src/recipes/default.toml");
@@ -41,6 +45,7 @@ pub(crate) struct Tables {
     pub flares: Flares,
     pub layers: Layers,
     pub skybox: Option<Spanned<Skybox>>,
+    pub field: Option<Spanned<FieldTable>>,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]

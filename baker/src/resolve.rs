@@ -1,5 +1,6 @@
 //! The recipe as it is used: defaults filled, types and ranges checked. Later stages never see TOML.
 
+mod field;
 mod layers;
 mod skybox;
 
@@ -53,6 +54,7 @@ impl Recipe {
             },
             layers: self.layers()?,
             skybox: self.skybox()?,
+            field: self.field()?,
         })
     }
 

@@ -1,6 +1,12 @@
 //! What a bake needs to know, as plain data: the recipe after `resolve.rs` has checked it.
 
+mod field;
+
 use welkin_pack::Format;
+
+pub use field::{
+    BoxSettings, CloudLayerSettings, FieldBound, FieldSettings, ModelSettings, ModelSource,
+};
 
 /// Everything a bake needs to know, checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +35,8 @@ pub struct Resolved {
     pub layers: LayersSettings,
     /// The skybox, if the recipe names a picture.
     pub skybox: Option<SkyboxSettings>,
+    /// The clouds in space, unless the recipe leaves them out.
+    pub field: Option<FieldSettings>,
 }
 
 /// The packed cloud texture.

@@ -3,8 +3,11 @@
 
 use rayon::prelude::*;
 
-use crate::manifest::{Channel, Input, KIND, MANIFEST_FILE, Sampler, TextureEntry, VERSION};
-use crate::{Format, Image, Manifest, Pack, PackError, Role, Texture, ktx, mip};
+use crate::field::glb;
+use crate::manifest::{
+    Channel, FieldEntry, Input, KIND, MANIFEST_FILE, Sampler, TextureEntry, VERSION,
+};
+use crate::{Field, Format, Image, Manifest, Pack, PackError, Role, Texture, ktx, mip};
 
 /// What a pack is built from, beside its images.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,15 +91,54 @@ impl Pack {
             entries.push(entry);
         }
         let textures = sources.into_iter().map(|(_, texture)| texture).collect();
-        let manifest = manifest(info, entries);
-        let json = manifest.to_json();
-        files.push((MANIFEST_FILE.to_string(), json.clone().into_bytes()));
-        let manifest = Manifest::from_json(MANIFEST_FILE, json.as_bytes())?;
-        Ok(Pack {
-            manifest,
+        Pack {
+            manifest: manifest(info, entries),
             textures,
+            field: None,
             files,
-        })
+        }
+        .sealed()
+    }
+
+    /// Adds a field of clouds, or takes its place; proves that reading it back gives the same field.
+    ///
+    /// Rotations are rounded to a 4096th of a turn, as they are stored; see [`crate::field::rounded_rotation`].
+    ///
+    /// # Errors
+    /// [`PackError::Value`] if the field is not sound: see [`Field::verify`].
+    pub fn with_field(self, mut field: Field) -> Result<Pack, PackError> {
+        field.round_rotations();
+        field.verify(FieldEntry::FILE)?;
+        self.with_any_field(field)
+    }
+
+    /// The same with a field that is not looked at.
+    pub(crate) fn with_any_field(mut self, field: Field) -> Result<Pack, PackError> {
+        let bytes = glb::encode(FieldEntry::FILE, &field, &self.manifest.baker)?;
+        if glb::decode(FieldEntry::FILE, &bytes)? != field {
+            return Err(PackError::value(
+                FieldEntry::FILE,
+                "field",
+                "changed by writing",
+                "the same after reading back",
+            ));
+        }
+        let name = FieldEntry::FILE.to_string();
+        self.manifest.field = Some(FieldEntry::new(&field, &bytes));
+        self.files
+            .retain(|(file, _)| *file != name && file != MANIFEST_FILE);
+        self.files.push((name, bytes));
+        self.field = Some(field);
+        self.sealed()
+    }
+
+    /// Writes the manifest anew, as the last file, and reads it back.
+    fn sealed(mut self) -> Result<Pack, PackError> {
+        let json = self.manifest.to_json();
+        self.manifest = Manifest::from_json(MANIFEST_FILE, json.as_bytes())?;
+        self.files
+            .push((MANIFEST_FILE.to_string(), json.into_bytes()));
+        Ok(self)
     }
 }
 
@@ -130,6 +172,7 @@ fn manifest(info: PackInfo, textures: Vec<TextureEntry>) -> Manifest {
         inputs: info.inputs,
         noon_elevation_rad: info.noon_elevation_rad,
         textures,
+        field: None,
         seal: String::new(),
     }
 }

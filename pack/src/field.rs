@@ -4,6 +4,9 @@
 //! [`Field::side_m`] in x and z. N. Wang, "Let There Be Clouds! Fast, Realistic Cloud-Rendering in Microsoft Flight
 //! Simulator 2004: A Century of Flight", Game Developer, 2004.
 
+pub(crate) mod glb;
+mod verify;
+
 /// Side of a section, in metres: the article counts sprites and boxes in blocks of 16 square kilometres.
 pub const SECTION_SIDE_M: f32 = 4000.0;
 
@@ -30,6 +33,17 @@ impl Field {
     /// How many sprites there are in all.
     pub fn sprite_count(&self) -> usize {
         self.clouds.iter().map(|cloud| cloud.sprites.len()).sum()
+    }
+
+    /// How many boxes there are in all.
+    pub fn box_count(&self) -> usize {
+        self.clouds.iter().map(|cloud| cloud.boxes.len()).sum()
+    }
+
+    /// Rounds every rotation as [`rounded_rotation`] does.
+    pub fn round_rotations(&mut self) {
+        let sprites = self.clouds.iter_mut().flat_map(|cloud| &mut cloud.sprites);
+        sprites.for_each(|sprite| sprite.rotation_rad = rounded_rotation(sprite.rotation_rad));
     }
 }
 
@@ -112,7 +126,7 @@ pub struct Cloud {
     pub kind: CloudKind,
     /// The cover from which it is there, 0..1.
     pub rank: f32,
-    /// Middle of the box around all its boxes.
+    /// Middle of the box around all its boxes: see [`bounds`].
     pub centre_m: [f32; 3],
     /// Size of that box.
     pub size_m: [f32; 3],
@@ -132,6 +146,38 @@ impl Cloud {
         let [x, y, z] = self.size_m;
         0.5 * libm::sqrtf(x * x + y * y + z * z)
     }
+}
+
+/// Middle and size of the box around boxes: [`Cloud::centre_m`] and [`Cloud::size_m`]. Zeros around none.
+pub fn bounds(boxes: &[CloudBox]) -> ([f32; 3], [f32; 3]) {
+    let edge = |axis: usize, side: f32, pick: fn(f32, f32) -> f32| {
+        let edges = boxes
+            .iter()
+            .map(|b| b.centre_m[axis] + side * b.size_m[axis]);
+        edges.reduce(pick).unwrap_or(0.0)
+    };
+    let (mut centre, mut size) = ([0.0; 3], [0.0; 3]);
+    for axis in 0..3 {
+        let (low, high) = (edge(axis, -0.5, f32::min), edge(axis, 0.5, f32::max));
+        (centre[axis], size[axis]) = (0.5 * (low + high), high - low);
+    }
+    (centre, size)
+}
+
+/// Steps of a rotation in a turn, as it is stored.
+pub const ROTATION_STEPS: f32 = 4096.0;
+
+/// A rotation as it is stored: the nearest multiple of a 4096th of a turn, above -pi and up to pi.
+pub fn rounded_rotation(rotation_rad: f32) -> f32 {
+    rotation_step(rotation_rad) as f32 * (std::f32::consts::TAU / ROTATION_STEPS)
+}
+
+/// The same in steps, -2047 to 2048.
+fn rotation_step(rotation_rad: f32) -> i32 {
+    let turns = rotation_rad / std::f32::consts::TAU;
+    let turns = turns - libm::floorf(turns);
+    let step = libm::roundf(turns * ROTATION_STEPS) as i32;
+    if step > 2048 { step - 4096 } else { step }
 }
 
 /// The ambient colour at one height of a cloud.
@@ -195,7 +241,8 @@ pub struct Sprite {
     pub centre_m: [f32; 3],
     /// Width and height.
     pub size_m: [f32; 2],
-    /// How far it is turned about the axis towards the viewer, anticlockwise; of a flat one about +Y.
+    /// How far it is turned about the axis towards the viewer, anticlockwise; of a flat one about +Y, from width along +x
+    /// and height along -z. See [`rounded_rotation`].
     pub rotation_rad: f32,
     /// Index of its picture on the sheet, from the upper left, row by row: see [`crate::mapping::SheetCell`].
     pub cell: u8,

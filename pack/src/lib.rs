@@ -26,6 +26,9 @@ pub mod role;
 mod save;
 #[cfg(test)]
 #[cfg(feature = "write")]
+mod test_field;
+#[cfg(test)]
+#[cfg(feature = "write")]
 mod test_pack;
 pub mod texel;
 pub mod texture;

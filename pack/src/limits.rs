@@ -14,3 +14,24 @@ pub const MAX_FILE_BYTES: u64 = 256 << 20;
 
 /// Largest manifest, in bytes: 1 MiB.
 pub const MAX_MANIFEST_BYTES: u64 = 1 << 20;
+
+/// Largest file of a field of clouds, in bytes: 16 MiB.
+pub const MAX_FIELD_BYTES: u64 = 16 << 20;
+
+/// Most sections along a side of a field.
+pub const MAX_SECTIONS: u32 = 8;
+
+/// Most clouds in a field.
+pub const MAX_CLOUDS: usize = 4096;
+
+/// Most shading groups of a cloud.
+pub const MAX_GROUPS: usize = 256;
+
+/// Most boxes in a field.
+pub const MAX_BOXES: usize = 16_384;
+
+/// Most sprites in a field.
+pub const MAX_SPRITES: usize = 65_536;
+
+/// Most entries of a table of light.
+pub const MAX_HOURS: usize = 96;

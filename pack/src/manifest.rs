@@ -1,10 +1,14 @@
 //! `pack.json`: what a pack says of itself.
 
+mod field;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::role::{Filter, Wrap};
 use crate::{Format, PackError, Role, Shape, Texture};
+
+pub use field::FieldEntry;
 
 /// File name of the manifest in a pack.
 pub const MANIFEST_FILE: &str = "pack.json";
@@ -13,7 +17,7 @@ pub const MANIFEST_FILE: &str = "pack.json";
 pub const KIND: &str = "welkin-pack";
 
 /// The version of the pack format that this crate reads and writes.
-pub const VERSION: u64 = 3;
+pub const VERSION: u64 = 4;
 
 /// A pack's manifest. docs/pack-format.md describes every key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -37,6 +41,9 @@ pub struct Manifest {
     pub noon_elevation_rad: f32,
     /// The textures, in the order of [`Role::ALL`].
     pub textures: Vec<TextureEntry>,
+    /// The clouds in space, if it has any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub field: Option<FieldEntry>,
     /// BLAKE3 of this file with these 64 digits set to `0`, in lower-case hexadecimal.
     pub seal: String,
 }
@@ -169,7 +176,9 @@ impl Manifest {
             }
             entry.verify(file, index)?;
         }
-        Ok(())
+        self.field
+            .as_ref()
+            .map_or(Ok(()), |field| field.verify(file))
     }
 
     /// The entry of a role.
@@ -218,24 +227,7 @@ impl TextureEntry {
 
     /// Compares a file's bytes with this entry.
     pub(crate) fn verify_file(&self, file: &str, bytes: &[u8]) -> Result<(), PackError> {
-        if bytes.len() as u64 != self.file_bytes {
-            return Err(PackError::value(
-                file,
-                "file_bytes",
-                bytes.len(),
-                self.file_bytes,
-            ));
-        }
-        let found = blake3::hash(bytes).to_hex().to_string();
-        if found != self.file_blake3 {
-            return Err(PackError::value(
-                file,
-                "file_blake3",
-                found,
-                &self.file_blake3,
-            ));
-        }
-        Ok(())
+        verify_bytes(file, bytes, self.file_bytes, &self.file_blake3)
     }
 
     /// Compares the layout of a decoded texture with this entry.
@@ -278,6 +270,18 @@ impl TextureEntry {
         }
         Ok(())
     }
+}
+
+/// Compares a file's bytes with the size and the hash that the manifest gives.
+fn verify_bytes(file: &str, bytes: &[u8], size: u64, blake3: &str) -> Result<(), PackError> {
+    if bytes.len() as u64 != size {
+        return Err(PackError::value(file, "file_bytes", bytes.len(), size));
+    }
+    let found = blake3::hash(bytes).to_hex().to_string();
+    if found != blake3 {
+        return Err(PackError::value(file, "file_blake3", found, blake3));
+    }
+    Ok(())
 }
 
 fn seal_of(unsealed_text: &str) -> String {

@@ -4,22 +4,24 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 
-use crate::limits::{MAX_FILE_BYTES, MAX_MANIFEST_BYTES};
+use crate::field::glb;
+use crate::limits::{MAX_FIELD_BYTES, MAX_FILE_BYTES, MAX_MANIFEST_BYTES};
 use crate::manifest::MANIFEST_FILE;
-use crate::{Manifest, PackError, Role, Texture, ktx};
+use crate::{Field, Manifest, PackError, Role, Texture, ktx};
 
 #[cfg(feature = "write")]
 pub use crate::build::{PackInfo, Source};
 #[cfg(feature = "write")]
 pub use crate::save::Overwrite;
 
-/// A pack: its manifest and its textures, which agree with each other.
+/// A pack: its manifest, its textures and its field of clouds, which agree with each other.
 ///
 /// It also keeps the bytes of its files, so that saving it again copies them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pack {
     pub(crate) manifest: Manifest,
     pub(crate) textures: Vec<Texture>,
+    pub(crate) field: Option<Field>,
     /// Name and bytes of every file, the manifest last.
     pub(crate) files: Vec<(String, Vec<u8>)>,
 }
@@ -34,6 +36,11 @@ impl Pack {
     pub fn texture(&self, role: Role) -> Option<&Texture> {
         let index = self.manifest.textures.iter().position(|t| t.role == role)?;
         self.textures.get(index)
+    }
+
+    /// The clouds in space, if the pack has any.
+    pub fn field(&self) -> Option<&Field> {
+        self.field.as_ref()
     }
 
     /// Name and bytes of every file of the pack, the manifest last.
@@ -77,10 +84,22 @@ impl Pack {
             textures.push(texture);
             files.push((entry.file.clone(), bytes));
         }
+        let mut field = None;
+        if let Some(entry) = &manifest.field {
+            let file = join(place, &entry.file);
+            let bytes = read(&entry.file, MAX_FIELD_BYTES)?;
+            entry.verify_file(&file, &bytes)?;
+            let decoded = glb::decode(&file, &bytes)?;
+            entry.verify_counts(&file, &decoded)?;
+            decoded.verify(&file)?;
+            field = Some(decoded);
+            files.push((entry.file.clone(), bytes));
+        }
         files.push((MANIFEST_FILE.to_string(), bytes));
         Ok(Pack {
             manifest,
             textures,
+            field,
             files,
         })
     }

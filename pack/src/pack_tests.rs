@@ -6,8 +6,9 @@ use std::path::Path;
 use proptest::prelude::*;
 
 use crate::manifest::{MANIFEST_FILE, schema_json};
+use crate::test_field::field;
 use crate::test_pack::{Stream, info, pack, sources, write};
-use crate::{Image, Overwrite, Pack, PackError, Role, Source};
+use crate::{Field, Image, Overwrite, Pack, PackError, Role, Source};
 
 fn never() -> bool {
     false
@@ -50,6 +51,7 @@ fn a_saved_pack_opens_as_it_was() {
         [
             "clouds.ktx2",
             "fbm.ktx2",
+            "field.glb",
             "flares.ktx2",
             "galaxy.ktx2",
             "layers.ktx2",
@@ -139,6 +141,50 @@ fn one_flipped_bit_anywhere_is_refused() {
 }
 
 #[test]
+fn one_flipped_bit_in_the_field_is_refused() {
+    let mut field = field();
+    field.clouds.truncate(1);
+    let files = tiny().with_field(field.clone()).unwrap().files().to_vec();
+    assert_eq!(open_bytes(&files).unwrap().field(), Some(&field));
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["galaxy.ktx2", "field.glb", "pack.json"]);
+    for at in 0..files[1].1.len() {
+        let mut damaged = files.clone();
+        damaged[1].1[at] ^= 1 << (at % 8);
+        assert!(open_bytes(&damaged).is_err(), "byte {at}");
+    }
+}
+
+#[test]
+fn a_second_field_takes_the_place_of_the_first() {
+    let mut other = field();
+    other.hours.truncate(1);
+    let pack = tiny().with_field(field()).unwrap();
+    let pack = pack.with_field(other.clone()).unwrap();
+    assert_eq!(pack, tiny().with_field(other).unwrap());
+}
+
+#[test]
+fn a_field_that_is_not_sound_is_not_built() {
+    let blamed = |change: &dyn Fn(&mut Field)| {
+        let mut field = field();
+        change(&mut field);
+        tiny().with_field(field).unwrap_err().to_string()
+    };
+    assert_eq!(
+        blamed(&|f| f.sections = 0),
+        "field.glb: sections is 0, expected 1 to 8"
+    );
+    assert_eq!(
+        blamed(&|f| f.clouds.clear()),
+        "field.glb: clouds is 0, expected 1 to 4096"
+    );
+    assert!(blamed(&|f| f.clouds[0].sprites[0].centre_m[1] = f32::NAN).contains("centre_m is NaN"));
+    assert!(blamed(&|f| f.clouds[0].rank = f32::NAN).contains("clouds[0].rank is NaN"));
+    assert!(blamed(&|f| f.clouds[0].size_m[0] += 1.0).contains("clouds[0].centre_m, size_m"));
+}
+
+#[test]
 fn a_missing_file_is_named() {
     let place = tempfile::tempdir().unwrap();
     write(&pack(), place.path());
@@ -187,12 +233,12 @@ fn open_with_manifest(change: impl Fn(&str) -> String) -> String {
 #[test]
 fn another_version_is_refused_for_its_version() {
     let error = open_with_manifest(|text| {
-        text.replace("\"version\": 3", "\"version\": 2")
+        text.replace("\"version\": 4", "\"version\": 3")
             .replace("\"seed\"", "\"seeds\"")
     });
     assert_eq!(
         error,
-        "p/pack.json: version is 2, expected 3; use a welkin that knows this version, or bake again"
+        "p/pack.json: version is 3, expected 4; use a welkin that knows this version, or bake again"
     );
 }
 

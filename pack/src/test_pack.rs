@@ -1,6 +1,7 @@
 //! A small pack that breaks no rule, for tests to break.
 
 use crate::mapping::{FBM_STEPS_A_TILE, cube_to_direction, galaxy_uv_to_direction};
+use crate::test_field::field;
 use crate::{Format, Image, Pack, PackInfo, Role, Source, StarTexel};
 
 /// A stream of numbers in 0..1: a 64-bit linear congruential generator (D. E. Knuth, MMIX), upper bits.
@@ -56,7 +57,11 @@ pub(crate) fn sources() -> Vec<Source> {
 }
 
 pub(crate) fn pack() -> Pack {
-    Pack::build(info(), sources()).unwrap()
+    with_clouds(Pack::build(info(), sources()).unwrap())
+}
+
+fn with_clouds(pack: Pack) -> Pack {
+    pack.with_field(field()).unwrap()
 }
 
 /// Writes a pack's files into a folder, as they are.
@@ -313,5 +318,5 @@ pub(crate) fn with_texture(role: Role, change: impl FnOnce(&mut crate::Texture))
 pub(crate) fn half_float_pack() -> Pack {
     let mut sources = sources();
     sources[0].format = Format::Rgba16Float;
-    Pack::build(info(), sources).unwrap()
+    with_clouds(Pack::build(info(), sources).unwrap())
 }

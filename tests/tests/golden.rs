@@ -10,10 +10,15 @@ use welkin_tests::pack::{default_pack, recipe_pack};
 /// pictures, and say in CHANGELOG.md why.
 fn assert_golden(name: &str, pack: &Pack) {
     let textures = &pack.manifest().textures;
-    let found: String = textures
+    let mut found: String = textures
         .iter()
         .map(|entry| format!("{} {}\n", entry.texels_blake3, entry.role.name()))
         .collect();
+    if let Some(field) = pack.field() {
+        // Of its numbers as text: the file also names the version that wrote it.
+        let hash = blake3::hash(format!("{field:?}").as_bytes());
+        found += &format!("{} field\n", hash.to_hex());
+    }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("golden/{name}.txt"));
     if std::env::var_os("WELKIN_BLESS").is_some() {
         fs::write(&path, &found).expect("the golden file is written");

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use anyhow::{Result, anyhow, bail};
 use indicatif::{ProgressBar, ProgressStyle};
-use welkin_baker::{Progress, Recipe, Resolved};
+use welkin_baker::{FieldBound, FieldSettings, Progress, Recipe, Resolved};
 use welkin_pack::pack::Overwrite;
 use welkin_pack::{Pack, Role};
 
@@ -31,6 +31,7 @@ pub fn run(args: &BakeArgs) -> Result<()> {
         .as_deref()
         .map_or_else(|| Ok(Recipe::default()), read_recipe)?;
     let resolved = recipe.resolve(args.seed)?;
+    tell_bound(&resolved);
     // Photographs are named from the recipe's folder.
     let base = args.recipe.as_deref().and_then(Path::parent);
     let begin = |place: &Path| Folder::begin(place, args.force, side::is_ours);
@@ -58,6 +59,23 @@ pub fn run(args: &BakeArgs) -> Result<()> {
         args.output.display()
     ));
     Ok(())
+}
+
+/// A field larger than usual is said before memory is taken for it.
+fn tell_bound(resolved: &Resolved) {
+    const USUAL_BYTES: usize = 8 << 20;
+    let bound = resolved.field.as_ref().map(FieldSettings::bound);
+    if let Some(bound) = bound.filter(|bound| bound.bytes > USUAL_BYTES) {
+        let FieldBound {
+            clouds,
+            boxes,
+            sprites,
+            bytes,
+        } = bound;
+        output::message(&format!(
+            "the field may have {sprites} sprites, {boxes} boxes and {clouds} clouds, which take {bytes} bytes of memory at most"
+        ));
+    }
 }
 
 /// Each of the three is a folder of its own; two in one place would replace each other.

@@ -1,7 +1,9 @@
 //! `welkin info`: what is in a pack.
 //!
 //! `--json` prints one object: `folder` is the folder as it was named, `bytes` the size of all textures'
-//! files together, and `manifest` the manifest as docs/pack.schema.json describes it.
+//! files together, `manifest` the manifest as docs/pack.schema.json describes it, and `field` the clouds by kind.
+
+mod field;
 
 use std::fmt::Write;
 use std::process::ExitCode;
@@ -18,10 +20,15 @@ pub fn run(args: &PackArgs) -> Result<ExitCode> {
     let manifest = pack.manifest();
     let text = if args.json {
         let folder = args.pack.display().to_string();
-        let all = json!({ "folder": folder, "bytes": bytes(manifest), "manifest": manifest });
+        let all = json!({
+            "folder": folder,
+            "bytes": bytes(manifest),
+            "manifest": manifest,
+            "field": field::json(&pack),
+        });
         serde_json::to_string_pretty(&all)? + "\n"
     } else {
-        table(manifest)?
+        table(manifest)? + &field::table(&pack)?
     };
     output::result(&text)?;
     Ok(ExitCode::SUCCESS)

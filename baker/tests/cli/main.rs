@@ -5,6 +5,7 @@
 
 mod bake;
 mod disk;
+mod field;
 mod handover;
 mod interrupt;
 mod look;

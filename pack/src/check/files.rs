@@ -3,15 +3,22 @@
 use std::path::Path;
 
 use super::report::Report;
-use super::rule::{CONTAINER, FILE_HASH, LAYOUT, MANIFEST, ROLES, SEAL, STATISTICS, TEXEL_HASH};
-use super::{report::Bound, subject};
-use crate::limits::{MAX_FILE_BYTES, MAX_MANIFEST_BYTES};
-use crate::manifest::{MANIFEST_FILE, TextureEntry};
+use super::rule::{
+    CONTAINER, FIELD_FILE, FILE_HASH, LAYOUT, MANIFEST, ROLES, SEAL, STATISTICS, TEXEL_HASH,
+};
+use super::{field, report::Bound, subject};
+use crate::field::glb;
+use crate::limits::{MAX_FIELD_BYTES, MAX_FILE_BYTES, MAX_MANIFEST_BYTES};
+use crate::manifest::{FieldEntry, MANIFEST_FILE, TextureEntry};
 use crate::pack::read_file;
-use crate::{Manifest, PackError, Role, Texture, ktx};
+use crate::{Field, Manifest, PackError, Role, Texture, ktx};
 
-/// Checks the files and gives the textures that could be decoded and are laid out as their role asks.
-pub(super) fn check(report: &mut Report, folder: &Path) -> Result<Vec<(Role, Texture)>, PackError> {
+/// What could be read of a pack.
+type Contents = (Vec<(Role, Texture)>, Option<Field>);
+
+/// Checks the files and gives the textures that could be decoded and are laid out as their role asks, and the field of
+/// clouds.
+pub(super) fn check(report: &mut Report, folder: &Path) -> Result<Contents, PackError> {
     let bytes = read_file(folder, MANIFEST_FILE, MAX_MANIFEST_BYTES)?;
     let file = folder.join(MANIFEST_FILE).display().to_string();
     let manifest = Manifest::parse(&file, &bytes)?;
@@ -27,13 +34,30 @@ pub(super) fn check(report: &mut Report, folder: &Path) -> Result<Vec<(Role, Tex
         for rule in [FILE_HASH, CONTAINER, LAYOUT, TEXEL_HASH, STATISTICS] {
             report.skip(rule, "every texture", "the manifest is not sound");
         }
-        return Ok(Vec::new());
+        if manifest.field.is_some() {
+            report.skip(FIELD_FILE, field::SUBJECT, "the manifest is not sound");
+        }
+        return Ok((Vec::new(), None));
     }
-    Ok(manifest
-        .textures
-        .iter()
+    let textures = manifest.textures.iter();
+    let textures = textures
         .filter_map(|entry| Some((entry.role, check_entry(report, folder, entry)?)))
-        .collect())
+        .collect();
+    let entry = manifest.field.as_ref();
+    Ok((textures, entry.and_then(|e| check_field(report, folder, e))))
+}
+
+fn check_field(report: &mut Report, folder: &Path, entry: &FieldEntry) -> Option<Field> {
+    let file = folder.join(&entry.file).display().to_string();
+    let bytes = read_file(folder, &entry.file, MAX_FIELD_BYTES);
+    let bytes = bytes.and_then(|bytes| entry.verify_file(&file, &bytes).map(|()| bytes));
+    let Some(bytes) = report.verify(FILE_HASH, field::SUBJECT, bytes) else {
+        report.skip(FIELD_FILE, field::SUBJECT, "the file is missing or damaged");
+        return None;
+    };
+    let clouds = glb::decode(&file, &bytes)
+        .and_then(|clouds| entry.verify_counts(&file, &clouds).map(|()| clouds));
+    report.verify(FIELD_FILE, field::SUBJECT, clouds)
 }
 
 fn check_entry(report: &mut Report, folder: &Path, entry: &TextureEntry) -> Option<Texture> {

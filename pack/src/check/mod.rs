@@ -7,6 +7,7 @@
 mod chance;
 mod clouds;
 mod fbm;
+mod field;
 mod files;
 mod flares;
 mod galaxy;
@@ -39,9 +40,12 @@ use crate::{PackError, Role, Texture};
 /// that is wrong, a damaged texture too, is in the report.
 pub fn check(folder: impl AsRef<Path>) -> Result<Report, PackError> {
     let mut report = Report::default();
-    let textures = files::check(&mut report, folder.as_ref())?;
+    let (textures, clouds) = files::check(&mut report, folder.as_ref())?;
     for (role, texture) in &textures {
         check_texture(&mut report, *role, texture);
+    }
+    if let Some(clouds) = &clouds {
+        field::check(&mut report, clouds);
     }
     let order = |id: &str| RULES.iter().position(|rule| rule.id == id);
     report.findings.sort_by_key(|finding| order(finding.rule));

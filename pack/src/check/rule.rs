@@ -90,4 +90,12 @@ rules! {
     RANK_ORDER = error("rank-order", "The rank never falls as the density rises.");
     SKYBOX_RANGE = error("skybox-range", "Radiance is finite and not negative, and the cover between 0 and 1.");
     SKYBOX_SEAM = warning("skybox-seam", "Across the 12 edges of the cube the picture changes no more than beside them.");
+    FIELD_FILE = error("field-file", "The field of clouds is a glTF file as the format describes it, with the counts of the manifest.");
+    FIELD_RANGE = error("field-range", "Every number of the field is finite and in its range.");
+    FIELD_INDEX = error("field-index", "Every sprite names a picture of the sheet and a box of its cloud, and every box a shading group.");
+    FIELD_BOXES = error("field-boxes", "The centre of every sprite is in its box.");
+    FIELD_CULL = error("field-cull", "No two sprites of a cloud are nearer than the smaller cull distance of their boxes.");
+    FIELD_RANK = error("field-rank", "The clouds are in the order of their ranks, which are between 0 and 1.");
+    FIELD_HOURS = error("field-hours", "The light of the clouds is in the order of time, and its numbers in range.");
+    FIELD_COUNTS = warning("field-counts", "Clouds have 5 to 400 sprites, boxes 1 to 100, and sections 20 to 200 boxes.");
 }

@@ -1,0 +1,86 @@
+//! Cumulonimbus: a dark broad foot, a tower of many storeys, and an anvil of ice that the wind draws out.
+
+use std::f32::consts::TAU;
+
+use super::heap::{Heap, foot};
+use super::{Look, between, whole};
+use crate::settings::BoxSettings;
+use crate::stream::Stream;
+
+pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSettings> {
+    let width = between(stream, 3600.0, 4600.0);
+    let depth = width * between(stream, 0.75, 0.95);
+    let height = (top_m - base_m) * between(stream, 0.9, 1.0);
+    let look = Look::puffs(1250.0);
+    let mut boxes = Vec::new();
+    foot(base_m, [width, 0.12 * height, depth], look, 1.5, &mut boxes);
+    let towers = whole(stream, 3, 4);
+    let first = between(stream, 0.0, 1.0);
+    let mut group = 1;
+    for i in 0..towers {
+        let out = if i == 0 {
+            0.04
+        } else {
+            between(stream, 0.2, 0.28)
+        };
+        let angle = TAU * (first + i as f32 / (towers - 1) as f32 + between(stream, -0.08, 0.08));
+        // The middle one reaches into the anvil.
+        let share = if i == 0 {
+            0.97
+        } else {
+            between(stream, 0.3, 0.6)
+        };
+        let tower = Heap {
+            at_m: [
+                out * width * libm::cosf(angle),
+                out * depth * libm::sinf(angle),
+            ],
+            foot_m: base_m + 0.08 * height,
+            top_m: base_m + share * height,
+            width_m: width
+                * if i == 0 {
+                    0.68
+                } else {
+                    between(stream, 0.46, 0.56)
+                },
+            storeys: (libm::roundf(share * height / 1100.0) as u32).clamp(1, 9),
+            group,
+        };
+        tower.add(look, 1.8, stream, &mut boxes);
+        group += tower.groups();
+    }
+    anvil([base_m, base_m + height], width, group, stream, &mut boxes);
+    boxes
+}
+
+/// Boxes from the tower outwards, thinner and higher the farther they are; most of them downwind, to the east.
+fn anvil(
+    [base_m, top_m]: [f32; 2],
+    width: f32,
+    group: u32,
+    stream: &mut Stream,
+    boxes: &mut Vec<BoxSettings>,
+) {
+    let height = top_m - base_m;
+    let look = Look {
+        width_m: [1300.0, 1900.0],
+        height_m: [650.0, 950.0],
+        ..Look::wisps(1500.0)
+    };
+    let ring = 8;
+    for i in 0..ring {
+        let angle = TAU * (i as f32 + between(stream, -0.2, 0.2)) / ring as f32;
+        let (sin, cos) = (libm::sinf(angle), libm::cosf(angle));
+        for (j, out) in [0.42, 0.8].into_iter().enumerate() {
+            let reach = width * out * (1.0 + 0.45 * cos);
+            let thick = height * if j == 0 { 0.12 } else { 0.06 };
+            let centre = [
+                reach * cos + 0.12 * width,
+                top_m - 0.3 * look.height_m[1] - 0.5 * thick,
+                reach * sin * 0.8,
+            ];
+            let size = [0.42 * width, thick, 0.34 * width];
+            boxes.push(look.in_box(centre, size, group + i / 2).filled(1.1));
+        }
+    }
+}

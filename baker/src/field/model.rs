@@ -1,0 +1,182 @@
+//! An artist's model: a glTF file whose mesh nodes are boxes.
+//!
+//! Khronos Group, "glTF 2.0 Specification", 2021. A box is the bounds of a node's mesh, as its accessors tell them, after the
+//! transforms of the node and of those above it; so no buffer is read. Its custom properties, `extras`, say the rest.
+
+mod extras;
+#[cfg(test)]
+mod tests;
+
+use gltf::{Gltf, Node, Semantic};
+
+use super::boxes::{self, Fault, PLACES_M, SIZES_M};
+use super::cloud::groups;
+use crate::error::BakeError;
+use crate::settings::BoxSettings;
+use welkin_pack::limits::MAX_GROUPS;
+
+/// The largest file: boxes take a few kilobytes.
+const MAX_BYTES: usize = 16 << 20;
+
+/// The most nodes that are visited, and how deep they may be nested: a file may name a node twice, or within itself.
+const MAX_NODES: usize = 4096;
+const MAX_DEPTH: usize = 64;
+
+/// A matrix as glTF has it, column by column.
+type Matrix = [[f32; 4]; 4];
+
+/// The boxes of a model, in the order of its nodes. `file` names it in errors.
+///
+/// # Errors
+/// [`BakeError::Model`].
+pub(crate) fn boxes(bytes: &[u8], file: &str) -> Result<Vec<BoxSettings>, BakeError> {
+    let unfit = |key: &str, found: String, expected: &str| model_error(file, key, found, expected);
+    if bytes.len() > MAX_BYTES {
+        let expected = "at most 16 MiB; export the boxes alone";
+        return Err(unfit("length", format!("{} bytes", bytes.len()), expected));
+    }
+    let parsed = if has_sound_header(bytes) {
+        Gltf::from_slice(bytes).map_err(|e| e.to_string())
+    } else {
+        Err("shorter than it says".to_string())
+    };
+    let gltf = parsed.map_err(|found| {
+        let expected = "a whole glTF 2.0 file without required extensions; export it again";
+        unfit("glTF", found, expected)
+    })?;
+    let scene = gltf.default_scene().or_else(|| gltf.scenes().next());
+    let scene = scene.ok_or_else(|| unfit("scenes", "none".to_string(), "a scene"))?;
+    let mut visit = Visit {
+        file,
+        nodes: 0,
+        boxes: Vec::new(),
+    };
+    for node in scene.nodes() {
+        visit.node(&node, &IDENTITY, 0)?;
+    }
+    if visit.boxes.is_empty() {
+        let expected = "boxes: nodes of the scene that have a mesh";
+        return Err(unfit("nodes", "without a mesh".to_string(), expected));
+    }
+    let groups = groups(&visit.boxes).len();
+    if groups > MAX_GROUPS {
+        let expected = format!("at most {MAX_GROUPS} different numbers");
+        return Err(unfit("group", format!("{groups} numbers"), &expected));
+    }
+    Ok(visit.boxes)
+}
+
+/// The library subtracts the header's length from what a binary file says of its own, without a look.
+fn has_sound_header(bytes: &[u8]) -> bool {
+    let length = bytes.get(8..12).and_then(|b| b.first_chunk());
+    let length = length.map(|b| u32::from_le_bytes(*b));
+    !bytes.starts_with(b"glTF") || length.is_some_and(|length| length >= 12)
+}
+
+struct Visit<'a> {
+    file: &'a str,
+    nodes: usize,
+    boxes: Vec<BoxSettings>,
+}
+
+impl Visit<'_> {
+    fn node(&mut self, node: &Node, above: &Matrix, depth: usize) -> Result<(), BakeError> {
+        self.nodes += 1;
+        if self.nodes > MAX_NODES || depth > MAX_DEPTH {
+            let found = format!("over {MAX_NODES}, or nested over {MAX_DEPTH} deep");
+            let expected = "fewer nodes, none within itself";
+            return Err(model_error(self.file, "nodes", found, expected));
+        }
+        let matrix = product(above, &node.transform().matrix());
+        if node.mesh().is_some() {
+            let of_node = self.cloud_box(node, &matrix)?;
+            self.boxes.push(of_node);
+        }
+        let mut children = node.children();
+        children.try_for_each(|child| self.node(&child, &matrix, depth + 1))
+    }
+
+    fn cloud_box(&self, node: &Node, matrix: &Matrix) -> Result<BoxSettings, BakeError> {
+        let name = match node.name() {
+            Some(name) => format!("node \"{name}\""),
+            None => format!("node {}", node.index()),
+        };
+        let unfit = |key: &str, found: String, expected: String| {
+            model_error(self.file, &format!("{name}: {key}"), found, &expected)
+        };
+        let corners = corners(node).map(|c| c.map(|corner| transformed(matrix, corner)));
+        let Some(corners) = corners.filter(|c| c.as_flattened().iter().all(|v| v.is_finite()))
+        else {
+            let expected = "a least and a largest position, finite".to_string();
+            return Err(unfit("bounds", "without them".to_string(), expected));
+        };
+        let pick = |axis: usize, pick: fn(f32, f32) -> f32| {
+            corners.iter().map(|c| c[axis]).reduce(pick).unwrap_or(0.0)
+        };
+        let mut found = extras::read(node.extras().as_deref(), &unfit)?;
+        for axis in 0..3 {
+            let (low, high) = (pick(axis, f32::min), pick(axis, f32::max));
+            found.centre_m[axis] = 0.5 * (low + high);
+            found.size_m[axis] = high - low;
+        }
+        for (key, values, [least, most]) in [
+            ("middle", found.centre_m, PLACES_M),
+            ("size", found.size_m, SIZES_M),
+        ] {
+            if let Some(value) = values.iter().find(|v| !(least..=most).contains(v)) {
+                let expected = format!("{least} to {most} m along each axis");
+                return Err(unfit(key, format!("{value} m"), expected));
+            }
+        }
+        boxes::verify(&found)
+            .map_err(|Fault { found, expected }| unfit("cull", found, expected))?;
+        Ok(found)
+    }
+}
+
+/// The corners of the box around the positions of a node's mesh.
+fn corners(node: &Node) -> Option<[[f32; 3]; 8]> {
+    let mut bounds: Option<[[f32; 3]; 2]> = None;
+    for primitive in node.mesh()?.primitives() {
+        let positions = primitive.get(&Semantic::Positions)?;
+        let low: [f32; 3] = serde_json::from_value(positions.min()?).ok()?;
+        let high: [f32; 3] = serde_json::from_value(positions.max()?).ok()?;
+        let [before_low, before_high] = bounds.unwrap_or([low, high]);
+        let axes = [0, 1, 2];
+        bounds = Some([
+            axes.map(|axis| low[axis].min(before_low[axis])),
+            axes.map(|axis| high[axis].max(before_high[axis])),
+        ]);
+    }
+    let bounds = bounds?;
+    let corner = |n: usize| [0, 1, 2].map(|axis| bounds[n >> axis & 1][axis]);
+    Some([0, 1, 2, 3, 4, 5, 6, 7].map(corner))
+}
+
+const IDENTITY: Matrix = [
+    [1.0, 0.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0, 0.0],
+    [0.0, 0.0, 1.0, 0.0],
+    [0.0, 0.0, 0.0, 1.0],
+];
+
+fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    b.map(|column| {
+        let row = |i: usize| (0..4).map(|k| a[k][i] * column[k]).sum();
+        [row(0), row(1), row(2), row(3)]
+    })
+}
+
+fn transformed(matrix: &Matrix, [x, y, z]: [f32; 3]) -> [f32; 3] {
+    let row = |i: usize| matrix[0][i] * x + matrix[1][i] * y + matrix[2][i] * z + matrix[3][i];
+    [row(0), row(1), row(2)]
+}
+
+fn model_error(file: &str, key: &str, found: String, expected: &str) -> BakeError {
+    BakeError::Model {
+        file: file.to_string(),
+        key: key.to_string(),
+        found,
+        expected: expected.to_string(),
+    }
+}

@@ -1,0 +1,233 @@
+//! Models that are read, and models that are refused.
+
+use serde_json::{Value, json};
+use welkin_pack::field::Category;
+
+use super::*;
+
+/// A model of nodes that each have a cube of side 2.
+fn model(nodes: Value) -> Value {
+    json!({
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": nodes,
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3",
+            "min": [-1.0, -1.0, -1.0], "max": [1.0, 1.0, 1.0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 96}],
+        "buffers": [{"byteLength": 96, "uri": "cube.bin"}],
+    })
+}
+
+fn read(model: &Value) -> Result<Vec<BoxSettings>, BakeError> {
+    boxes(model.to_string().as_bytes(), "m.gltf")
+}
+
+/// One box with these properties.
+fn with_extras(extras: Value) -> Value {
+    model(json!([{"name": "b", "mesh": 0, "scale": [300, 100, 200], "extras": extras}]))
+}
+
+fn refused(model: &Value) -> String {
+    read(model).unwrap_err().to_string()
+}
+
+#[test]
+fn properties_of_a_node_are_those_of_its_box() {
+    let boxes = read(&with_extras(json!({
+        "sprites": 40.0, "width_m": [150, 250.5], "height_m": [90, 180], "category": "stratus",
+        "rotation_deg": [-90, 45], "group": 7, "flat_bottom": 1, "cull": 0.2,
+    })));
+    let found = &boxes.unwrap()[0];
+    assert_eq!(found.size_m, [600.0, 200.0, 400.0]);
+    assert_eq!(
+        (found.sprites, found.group, found.flat_bottom),
+        (40, 7, true)
+    );
+    assert_eq!(
+        (found.width_m, found.height_m),
+        ([150.0, 250.5], [90.0, 180.0])
+    );
+    assert_eq!((found.category, found.cull), (Category::Stratus, 0.2));
+    let quarter = std::f32::consts::FRAC_PI_2;
+    assert!((found.rotation_rad[0] + quarter).abs() < 1e-6);
+    assert!((found.rotation_rad[1] - 0.5 * quarter).abs() < 1e-6);
+}
+
+#[test]
+fn a_box_is_the_bounds_after_the_transforms_of_all_nodes_above() {
+    let root = std::f32::consts::FRAC_1_SQRT_2;
+    // A quarter turn about the vertical above a box that is long in x.
+    let boxes = read(&model(json!([
+        {"children": [1, 2], "translation": [10, 500, 0], "rotation": [0, root, 0, root]},
+        {"mesh": 0, "translation": [100, 0, 0], "scale": [300, 100, 50]},
+        {"mesh": 0, "matrix": [50, 0, 0, 0, 0, 50, 0, 0, 0, 0, 50, 0, 0, 20, 0, 1]},
+    ])));
+    let boxes = boxes.unwrap();
+    let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|i| (a[i] - b[i]).abs() < 1e-3);
+    assert!(
+        near(boxes[0].centre_m, [10.0, 500.0, -100.0]),
+        "{:?}",
+        boxes[0]
+    );
+    assert!(near(boxes[0].size_m, [100.0, 200.0, 600.0]));
+    assert!(near(boxes[1].centre_m, [10.0, 520.0, 0.0]));
+    assert!(near(boxes[1].size_m, [100.0; 3]));
+}
+
+#[test]
+fn the_example_models_are_boxes() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets-src/models/");
+    for (file, count, sprites) in [("heap.gltf", 6, 68), ("tower.glb", 9, 166)] {
+        let bytes = std::fs::read(format!("{folder}{file}")).unwrap();
+        let boxes = boxes(&bytes, file).unwrap();
+        assert_eq!(boxes.len(), count);
+        assert_eq!(boxes.iter().map(|b| b.sprites).sum::<u32>(), sprites);
+        assert!(boxes[0].flat_bottom && boxes[0].centre_m[1] == 0.5 * boxes[0].size_m[1]);
+    }
+}
+
+#[test]
+fn bad_properties_are_refused_by_name() {
+    for (extras, expected) in [
+        (
+            json!({"sprites": 0}),
+            "m.gltf: node \"b\": sprites is 0, expected an integer from 1 to 100",
+        ),
+        (
+            json!({"sprites": 1_000_000}),
+            "node \"b\": sprites is 1000000, expected an integer from 1 to 100",
+        ),
+        (
+            json!({"sprites": 2.5}),
+            "sprites is 2.5, expected an integer",
+        ),
+        (
+            json!({"sprites": "NaN"}),
+            "sprites is \"NaN\", expected an integer",
+        ),
+        (
+            json!({"width_m": [300, 200]}),
+            "width_m is [300,200], expected two numbers from 1 to 10000, the least first",
+        ),
+        (
+            json!({"width_m": [300]}),
+            "width_m is [300], expected two numbers",
+        ),
+        (
+            json!({"height_m": [0, 100]}),
+            "height_m is [0,100], expected two numbers",
+        ),
+        (
+            json!({"height_m": [100, 1e300]}),
+            "height_m is [100,1e+300]",
+        ),
+        (
+            json!({"category": "nimbus"}),
+            "category is \"nimbus\", expected one of \"stratus\", \"cumulus\", \"wispy\"",
+        ),
+        (json!({"rotation_deg": [0, 720]}), "rotation_deg is [0,720]"),
+        (
+            json!({"group": -1}),
+            "group is -1, expected an integer from 0 to 9999",
+        ),
+        (
+            json!({"flat_bottom": "yes"}),
+            "flat_bottom is \"yes\", expected true or false",
+        ),
+        (
+            json!({"cull": 1.5}),
+            "cull is 1.5, expected a number from 0 to 1",
+        ),
+        (
+            json!({"cull": 1.0, "height_m": [700, 800]}),
+            "cull is 750 m of the sprites' mean height, expected at most the longest side of the box, 600 m",
+        ),
+        (
+            json!({"sprite": 10}),
+            "extras is with a property `sprite`, expected none but sprites, width_m",
+        ),
+        (json!([1]), "node \"b\": extras is"),
+    ] {
+        let error = refused(&with_extras(extras));
+        assert!(error.contains(expected), "{error}");
+    }
+    let infinite = with_extras(json!({"cull": 7777}))
+        .to_string()
+        .replace("7777", "1e999");
+    assert!(boxes(infinite.as_bytes(), "m.gltf").is_err());
+}
+
+#[test]
+fn models_without_boxes_are_refused() {
+    let error = refused(&model(json!([{"name": "empty"}])));
+    assert_eq!(
+        error,
+        "m.gltf: nodes is without a mesh, expected boxes: nodes of the scene that have a mesh"
+    );
+    let mut no_scene = with_extras(json!({}));
+    no_scene["scenes"] = json!([]);
+    assert!(refused(&no_scene).contains("scenes is none"));
+    let mut no_bounds = with_extras(json!({}));
+    no_bounds["accessors"][0]["min"] = json!(null);
+    assert!(read(&no_bounds).is_err());
+    let mut odd_bounds = with_extras(json!({}));
+    odd_bounds["accessors"][0]["min"] = json!([1]);
+    assert!(read(&odd_bounds).is_err());
+    let flat = model(json!([{"mesh": 0, "scale": [100, 0, 100]}]));
+    assert!(refused(&flat).contains("node 0: size is 0 m, expected 1 to 20000 m"));
+    let far = model(json!([{"mesh": 0, "scale": [9, 9, 9], "translation": [0, 1e6, 0]}]));
+    assert!(refused(&far).contains("middle is 1000000 m"));
+    let nowhere = model(json!([{"mesh": 0, "scale": [3e38, 9, 9], "translation": [3e38, 0, 0]}]));
+    assert!(refused(&nowhere).contains("bounds is without them"));
+}
+
+#[test]
+fn files_that_are_no_models_are_refused() {
+    for bytes in [
+        &b""[..],
+        b"name = 1",
+        b"{}",
+        b"glTF",
+        b"glTF\x02\0\0\0\x05\0\0\0",
+        b"glTF\x02\0\0\0\xff\0\0\0",
+    ] {
+        let error = boxes(bytes, "m.glb").unwrap_err().to_string();
+        assert!(error.starts_with("m.glb: "), "{error}");
+        assert!(
+            error.contains("export it again") || error.contains("a scene"),
+            "{error}"
+        );
+    }
+    let folder = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../assets-src/models/tower.glb"
+    );
+    let bytes = std::fs::read(folder).unwrap();
+    for length in 0..bytes.len() {
+        assert!(boxes(&bytes[..length], "m.glb").is_err(), "{length}");
+    }
+    let mut draco = with_extras(json!({}));
+    draco["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]);
+    assert!(refused(&draco).contains("without required extensions"));
+}
+
+#[test]
+fn nodes_within_themselves_do_not_go_on_for_ever() {
+    let ring = model(json!([{"children": [1]}, {"children": [0]}]));
+    assert!(refused(&ring).contains("none within itself"));
+    // Each node names the next twice: 2^20 visits.
+    let mut nodes: Vec<Value> = (0..20)
+        .map(|i| json!({"children": [i + 1, i + 1]}))
+        .collect();
+    nodes.push(json!({"mesh": 0, "scale": [200, 200, 200]}));
+    assert!(refused(&model(json!(nodes))).contains("over 4096"));
+}
+
+#[test]
+fn too_many_groups_are_refused() {
+    let node = |i: usize| json!({"mesh": 0, "scale": [200, 200, 200], "extras": {"group": i}});
+    let mut nodes: Vec<Value> = vec![json!({"children": (1..=257).collect::<Vec<_>>()})];
+    nodes.extend((0..257).map(node));
+    assert!(refused(&model(json!(nodes))).contains("257 numbers, expected at most 256"));
+}

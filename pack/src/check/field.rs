@@ -1,0 +1,106 @@
+//! The field of clouds: sprites in their boxes, apart from each other, and as many as a cloud should have.
+
+use super::report::{Bound, Report};
+use super::rule::{
+    FIELD_BOXES, FIELD_COUNTS, FIELD_CULL, FIELD_HOURS, FIELD_INDEX, FIELD_RANGE, FIELD_RANK,
+};
+use crate::Field;
+use crate::field::{Cloud, Sprite};
+use crate::manifest::FieldEntry;
+
+/// What reports call it.
+pub(super) const SUBJECT: &str = "field";
+
+/// The article: "we model each cloud as five to 400 sprites".
+const SPRITES_A_CLOUD: std::ops::RangeInclusive<usize> = 5..=400;
+
+/// The article: "the number of sprites per box can vary between 1 to 100".
+const SPRITES_A_BOX: std::ops::RangeInclusive<usize> = 1..=100;
+
+/// The article: "there are generally 20 to 200 boxes for each 16-square-kilometer section of clouds".
+const BOXES_A_SECTION: Bound = Bound::Within(20.0, 200.0);
+
+pub(super) fn check(report: &mut Report, field: &Field) {
+    let file = FieldEntry::FILE;
+    report.verify(FIELD_RANGE, SUBJECT, field.verify_ranges(file));
+    report.verify(FIELD_RANK, SUBJECT, field.verify_ranks(file));
+    report.verify(FIELD_HOURS, SUBJECT, field.verify_hours(file));
+    let indices = field.verify_indices(file);
+    if report.verify(FIELD_INDEX, SUBJECT, indices).is_none() {
+        for rule in [FIELD_BOXES, FIELD_CULL, FIELD_COUNTS] {
+            report.skip(rule, SUBJECT, "an index is out of its list");
+        }
+        return;
+    }
+    let sum = |count: fn(&Cloud) -> usize| field.clouds.iter().map(count).sum::<usize>() as f64;
+    let none = Bound::AtMost(0.0);
+    report.measure(FIELD_BOXES, SUBJECT, sum(outside), none);
+    report.measure(FIELD_CULL, SUBJECT, sum(too_near), none);
+    check_counts(report, field);
+}
+
+fn check_counts(report: &mut Report, field: &Field) {
+    let none = Bound::AtMost(0.0);
+    let clouds = field.clouds.iter();
+    let odd_clouds = clouds.filter(|cloud| !SPRITES_A_CLOUD.contains(&cloud.sprites.len()));
+    report.measure(
+        FIELD_COUNTS,
+        "field.clouds",
+        odd_clouds.count() as f64,
+        none,
+    );
+    let odd_boxes = field.clouds.iter().map(|cloud| {
+        let mut counts = vec![0; cloud.boxes.len()];
+        for sprite in &cloud.sprites {
+            counts[usize::from(sprite.cloud_box)] += 1;
+        }
+        let odd = counts.iter().filter(|count| !SPRITES_A_BOX.contains(count));
+        odd.count()
+    });
+    report.measure(
+        FIELD_COUNTS,
+        "field.boxes",
+        odd_boxes.sum::<usize>() as f64,
+        none,
+    );
+    let a_section = field.box_count() as f64 / f64::from(field.sections * field.sections);
+    report.measure(FIELD_COUNTS, "field.sections", a_section, BOXES_A_SECTION);
+}
+
+/// Sprites of a cloud whose centre is outside their box.
+fn outside(cloud: &Cloud) -> usize {
+    let is_outside = |sprite: &&Sprite| {
+        let of_cloud = &cloud.boxes[usize::from(sprite.cloud_box)];
+        (0..3).any(|axis| {
+            let distance = f64::from(sprite.centre_m[axis]) - f64::from(of_cloud.centre_m[axis]);
+            distance.abs() > 0.5 * f64::from(of_cloud.size_m[axis])
+        })
+    };
+    cloud.sprites.iter().filter(is_outside).count()
+}
+
+/// Pairs of sprites of a cloud that are nearer than the smaller cull distance of their boxes.
+///
+/// In the order of x, so that only those are looked at whose x is within the largest distance.
+fn too_near(cloud: &Cloud) -> usize {
+    let cull = |sprite: &Sprite| f64::from(cloud.boxes[usize::from(sprite.cloud_box)].cull_m);
+    let largest = cloud.sprites.iter().map(cull).fold(0.0, f64::max);
+    let mut sprites: Vec<&Sprite> = cloud.sprites.iter().collect();
+    sprites.sort_by(|a, b| a.centre_m[0].total_cmp(&b.centre_m[0]));
+    let apart = |a: &Sprite, b: &Sprite, axis: usize| {
+        f64::from(b.centre_m[axis]) - f64::from(a.centre_m[axis])
+    };
+    let mut count = 0;
+    for (index, a) in sprites.iter().enumerate() {
+        let after = sprites[index + 1..].iter();
+        let near = after.take_while(|b| apart(a, b, 0) < largest);
+        count += near
+            .filter(|b| {
+                let least = cull(a).min(cull(b));
+                let squares = (0..3).map(|axis| apart(a, b, axis) * apart(a, b, axis));
+                squares.sum::<f64>() < least * least
+            })
+            .count();
+    }
+    count
+}

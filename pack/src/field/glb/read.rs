@@ -1,0 +1,210 @@
+//! Reads the file: instances and extras become a field again.
+
+use super::accessor::Instances;
+use super::document::{CloudExtras, Document, FieldExtras, HourExtras};
+use super::{BOXES, SPRITES, container, rotation};
+use crate::PackError;
+use crate::field::{
+    Category, Cloud, CloudBox, CloudKind, ColourLevel, Field, Hour, Sprite, bounds,
+};
+use crate::limits::{MAX_CLOUDS, MAX_GROUPS, MAX_HOURS};
+
+/// Decodes the bytes of a file. What the numbers mean is not looked at here: see [`Field::verify`].
+///
+/// # Errors
+/// [`PackError`] if it is not a file as docs/pack-format.md describes it. Counts are compared with
+/// [`crate::limits`] and with the length of the file before anything is allocated for them.
+pub(crate) fn decode(file: &str, bytes: &[u8]) -> Result<Field, PackError> {
+    let (json, bin) = container::split(file, bytes)?;
+    let mut document: Document = serde_json::from_slice(json).map_err(|e| {
+        PackError::value(
+            file,
+            "JSON",
+            e,
+            "a field as docs/pack-format.md describes it",
+        )
+    })?;
+    let scene = document.scene;
+    let scene = document.scenes.get_mut(scene);
+    let Some(extras) = scene.and_then(|scene| scene.extras.take()) else {
+        let expected = "`extras` with `welkin_field`";
+        return Err(PackError::value(file, "scene", "without", expected));
+    };
+    let extras = extras.welkin_field;
+    at_most(file, "clouds", extras.clouds.len(), MAX_CLOUDS)?;
+    at_most(file, "hours", extras.hours.len(), MAX_HOURS)?;
+    let clouds = extras.clouds.iter().enumerate();
+    let clouds: Result<Vec<Cloud>, PackError> = clouds
+        .map(|(index, cloud)| cloud_of(file, index, cloud, &extras))
+        .collect();
+    let mut clouds = clouds?;
+    add_boxes(
+        file,
+        &Instances::of(file, BOXES, &document, bin)?,
+        &mut clouds,
+    )?;
+    add_sprites(
+        file,
+        &Instances::of(file, SPRITES, &document, bin)?,
+        &mut clouds,
+    )?;
+    for cloud in &mut clouds {
+        (cloud.centre_m, cloud.size_m) = bounds(&cloud.boxes);
+    }
+    Ok(Field {
+        sections: extras.sections,
+        hours: extras.hours.iter().map(hour).collect(),
+        clouds,
+    })
+}
+
+fn at_most(file: &str, key: &str, found: usize, limit: usize) -> Result<(), PackError> {
+    if found <= limit {
+        return Ok(());
+    }
+    Err(PackError::TooLarge {
+        file: file.to_string(),
+        key: format!("count of {key}"),
+        found: found as u64,
+        limit: limit as u64,
+    })
+}
+
+/// A cloud without its boxes and sprites.
+fn cloud_of(
+    file: &str,
+    index: usize,
+    cloud: &CloudExtras,
+    extras: &FieldExtras,
+) -> Result<Cloud, PackError> {
+    let key = |name: &str| format!("clouds[{index}].{name}");
+    let Some(kind) = CloudKind::from_name(&cloud.kind) else {
+        let expected = CloudKind::ALL.map(CloudKind::name).join(", ");
+        let expected = format!("one of {expected}");
+        return Err(PackError::value(file, &key("kind"), &cloud.kind, expected));
+    };
+    let Some(levels) = extras.levels.get(cloud.levels) else {
+        let expected = format!("below {}", extras.levels.len());
+        return Err(PackError::value(
+            file,
+            &key("levels"),
+            cloud.levels,
+            expected,
+        ));
+    };
+    at_most(file, &key("groups"), cloud.groups.len(), MAX_GROUPS)?;
+    let level = |[height, red, green, blue, alpha]: [f32; 5]| ColourLevel {
+        height,
+        rgba: [red, green, blue, alpha],
+    };
+    Ok(Cloud {
+        kind,
+        rank: cloud.rank,
+        centre_m: [0.0; 3],
+        size_m: [0.0; 3],
+        levels: levels.map(level),
+        groups_m: cloud.groups.clone(),
+        boxes: Vec::new(),
+        sprites: Vec::new(),
+    })
+}
+
+fn hour(hour: &HourExtras) -> Hour {
+    Hour {
+        time: hour.time,
+        ambient: hour.ambient,
+        colour: hour.colour,
+        least: hour.least,
+        most: hour.most,
+    }
+}
+
+fn add_boxes(file: &str, boxes: &Instances, clouds: &mut [Cloud]) -> Result<(), PackError> {
+    let centres = boxes.vectors("TRANSLATION")?;
+    let sizes = boxes.vectors("SCALE")?;
+    let culls = boxes.floats("_CULL")?;
+    let categories = boxes.numbers("_CATEGORY")?;
+    let groups = boxes.numbers("_GROUP")?;
+    let owners = boxes.numbers("_CLOUD")?;
+    for i in 0..boxes.count {
+        let category = Category::ALL.get(usize::from(categories[i]));
+        let Some(&category) = category else {
+            let expected = format!("below {}", Category::ALL.len());
+            return Err(PackError::value(
+                file,
+                "boxes._CATEGORY",
+                categories[i],
+                expected,
+            ));
+        };
+        let cloud = owner(file, "boxes._CLOUD", clouds, owners[i])?;
+        cloud.boxes.push(CloudBox {
+            centre_m: centres[i],
+            size_m: sizes[i],
+            category,
+            group: groups[i],
+            cull_m: culls[i],
+        });
+    }
+    Ok(())
+}
+
+fn add_sprites(file: &str, sprites: &Instances, clouds: &mut [Cloud]) -> Result<(), PackError> {
+    let centres = sprites.vectors("TRANSLATION")?;
+    let sizes = sprites.vectors("SCALE")?;
+    let rotations = sprites.quaternions("ROTATION")?;
+    let cells = sprites.numbers("_CELL")?;
+    let groups = sprites.numbers("_GROUP")?;
+    let owners = sprites.numbers("_CLOUD")?;
+    let boxes = sprites.numbers("_BOX")?;
+    for i in 0..sprites.count {
+        let bad = |name: &str, found: String, expected: &str| {
+            Err(PackError::value(
+                file,
+                &format!("sprites.{name}"),
+                found,
+                expected,
+            ))
+        };
+        let cloud = owner(file, "sprites._CLOUD", clouds, owners[i])?;
+        let Ok(cell) = u8::try_from(cells[i]) else {
+            return bad("_CELL", cells[i].to_string(), "a cell of the sheet");
+        };
+        let Some(rotation_rad) = rotation(rotations[i], cloud.kind.is_flat()) else {
+            let found = format!("{:?}", rotations[i]);
+            return bad(
+                "ROTATION",
+                found,
+                "a 4096th of a turn, as docs/pack-format.md says",
+            );
+        };
+        let [width, height, depth] = sizes[i];
+        if depth != 1.0 {
+            return bad("SCALE", format!("{depth} in z"), "1: sprites are flat");
+        }
+        // A box that is not there is told by `Field::verify`.
+        let of_box = cloud.boxes.get(usize::from(boxes[i]));
+        if of_box.is_some_and(|of_box| of_box.group != groups[i]) {
+            return bad("_GROUP", groups[i].to_string(), "the group of its box");
+        }
+        cloud.sprites.push(Sprite {
+            centre_m: centres[i],
+            size_m: [width, height],
+            rotation_rad,
+            cell,
+            cloud_box: boxes[i],
+        });
+    }
+    Ok(())
+}
+
+fn owner<'a>(
+    file: &str,
+    key: &str,
+    clouds: &'a mut [Cloud],
+    index: u16,
+) -> Result<&'a mut Cloud, PackError> {
+    let expected = format!("below {}", clouds.len());
+    let cloud = clouds.get_mut(usize::from(index));
+    cloud.ok_or_else(|| PackError::value(file, key, index, expected))
+}
