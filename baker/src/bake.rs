@@ -10,7 +10,7 @@ use crate::clouds::{self, photo};
 use crate::error::BakeError;
 use crate::load::{self, Picture};
 use crate::settings::{PhotoSettings, Resolved, SkyboxSettings};
-use crate::{fbm, flares, galaxy, layers, octaves, sky, skybox, stars, sun};
+use crate::{fbm, flares, galaxy, layers, octaves, sky, skybox, sprites, stars, sun};
 
 /// How far a bake is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,9 +27,9 @@ pub struct Progress {
 type OnProgress<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
 
 /// The steps that [`sources`] takes, in order; the last one only if there is a skybox.
-const STEPS: [&str; 13] = [
+const STEPS: [&str; 14] = [
     "photo", "noise", "detail", "gradient", "stars", "galaxy", "sky", "sun", "octaves", "fbm",
-    "flares", "layers", "skybox",
+    "flares", "layers", "sprites", "skybox",
 ];
 
 /// Bakes a pack in memory.
@@ -176,6 +176,8 @@ fn make(
     let flares = flares::image(&resolved.flares, seed);
     step(STEPS[11], 11)?;
     let layers = layers::images(&resolved.layers, seed);
+    step(STEPS[12], 12)?;
+    let sprites = sprites::image(&resolved.sprites, seed);
     let mut sources = vec![
         source(Role::Clouds, clouds.format, vec![clouds_image]),
         source(Role::Stars, Format::Rgba8Unorm, vec![stars]),
@@ -186,9 +188,10 @@ fn make(
         source(Role::Fbm, Format::Rgba8Unorm, fbm),
         source(Role::Flares, Format::R8Unorm, vec![flares]),
         source(Role::Layers, Format::Rgba8Unorm, layers),
+        source(Role::Sprites, Format::Rg8Unorm, vec![sprites]),
     ];
     if let Some(settings) = &resolved.skybox {
-        let proceed = || step(STEPS[12], 12);
+        let proceed = || step(STEPS[13], 13);
         let faces = skybox::images(settings, &files.skybox, &proceed)?;
         sources.push(source(Role::Skybox, Format::Rgba16Float, faces));
     }

@@ -13,7 +13,7 @@
 //! use std::ops::ControlFlow;
 //! let resolved = welkin_baker::Recipe::default().resolve(Some(7))?;
 //! let images = welkin_baker::sources(&resolved, None, &|_| ControlFlow::Continue(()))?;
-//! assert_eq!(images.len(), 9);
+//! assert_eq!(images.len(), 10);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -34,6 +34,7 @@ mod resolve;
 mod settings;
 mod sky;
 mod skybox;
+mod sprites;
 mod stars;
 mod stream;
 mod sun;
@@ -45,5 +46,5 @@ pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
     CloudSettings, FbmSettings, FlareSettings, FractalSettings, GalaxySettings, GradientSettings,
     LayerSettings, LayersSettings, PhotoSettings, Resolved, SkySettings, SkyboxPicture,
-    SkyboxSettings, StarSettings, SunSettings,
+    SkyboxSettings, SpriteShape, SpritesSettings, StarSettings, SunSettings,
 };

@@ -40,6 +40,7 @@ pub(crate) struct Tables {
     pub fbm: Fbm,
     pub flares: Flares,
     pub layers: Layers,
+    pub sprites: Sprites,
     pub skybox: Option<Spanned<Skybox>>,
 }
 
@@ -139,6 +140,15 @@ pub(crate) struct Layer {
     pub octaves: Entry,
     pub gain: Entry,
     pub relief: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Sprites {
+    pub size: Entry,
+    pub contrast: Entry,
+    pub detail: Entry,
+    pub softness: Entry,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]

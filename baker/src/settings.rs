@@ -27,6 +27,8 @@ pub struct Resolved {
     pub flares: FlareSettings,
     /// Layers of clouds.
     pub layers: LayersSettings,
+    /// The sheet of cloud sprites.
+    pub sprites: SpritesSettings,
     /// The skybox, if the recipe names a picture.
     pub skybox: Option<SkyboxSettings>,
 }
@@ -163,6 +165,26 @@ pub struct LayerSettings {
     pub gain: f32,
     /// Root mean square slope of the cloud's surface.
     pub relief: f32,
+}
+
+/// The sheet of cloud sprites.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpritesSettings {
+    /// Texels a side of the sheet, a power of two.
+    pub size: u32,
+    /// Factor on the relief of the grey.
+    pub contrast: f32,
+    /// How the clouds of noise look.
+    pub shape: SpriteShape,
+}
+
+/// Clouds of noise on the sheet of sprites.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpriteShape {
+    /// Factor on what is fine: knobs and fibres.
+    pub detail: f32,
+    /// Factor on the width of a puff's edge.
+    pub softness: f32,
 }
 
 /// The skybox.

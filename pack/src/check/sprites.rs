@@ -202,7 +202,7 @@ impl Cell<'_> {
         let outlines = (0..self.side).filter_map(|x| {
             let mut rows = (0..self.side).filter(|&y| self.texel([x, y])[1] >= half);
             let upper = rows.next()?;
-            Some([upper, rows.last().unwrap_or(upper)].map(f64::from))
+            Some([upper, rows.next_back().unwrap_or(upper)].map(f64::from))
         });
         let outlines: Vec<[f64; 2]> = outlines.collect();
         let [upper, lower] = [0, 1].map(|i| spread(outlines.iter().map(|rows| rows[i])));

@@ -20,7 +20,7 @@ pub(super) fn halve(image: &Image) -> Image {
         out[ALPHA] = texels.iter().map(|t| t[ALPHA]).sum::<f32>() / texels.len() as f32;
     });
     let cell = level.width / SheetCell::A_SIDE;
-    let is_border = |i: u32| i % cell == 0 || i % cell == cell - 1;
+    let is_border = |i: u32| [0, cell - 1].contains(&(i % cell));
     for y in 0..level.height {
         for x in 0..level.width {
             if is_border(x) || is_border(y) {

@@ -1,0 +1,149 @@
+//! Fog, which is smooth, and wisps, which are torn.
+
+use super::march::{Body, Medium};
+use super::{REACH, Volumes, between, place_of};
+use crate::filter::smoothstep;
+use crate::settings::SpriteShape;
+use crate::stream::Stream;
+
+/// How fast the light from everywhere falls off with the optical depth a unit of length.
+const HIDING: f32 = 0.25;
+
+/// Size of a cell of the noise in fog, and how much it changes the density.
+const FOG_CELL: f32 = 0.5;
+const FOG_UNEVEN: f32 = 0.9;
+
+/// Optical depth a unit of length in the middle of fog.
+const FOG_EXTINCTION: f32 = 1.6;
+
+/// Half of the thickness of wisps.
+const WISP_DEPTH: f32 = 0.4;
+
+/// Size of a cell of the noise that curls wisps.
+const CURL_CELL: f32 = 0.55;
+
+/// Size of a cell of their fibres: along, across, and towards the viewer.
+const FIBRE_CELL: [f32; 3] = [0.7, 0.2, 0.5];
+
+/// Optical depth a unit of length where wisps are densest.
+const WISP_EXTINCTION: f32 = 3.0;
+
+pub(super) struct Fog<'a> {
+    volumes: &'a Volumes,
+    origin: [f32; 3],
+    /// Radii, as shares of [`REACH`].
+    radii: [f32; 3],
+    gain: f32,
+}
+
+impl<'a> Fog<'a> {
+    pub(super) fn new(volumes: &'a Volumes, shape: &SpriteShape, stream: &mut Stream) -> Fog<'a> {
+        Fog {
+            volumes,
+            origin: place_of(stream),
+            radii: [
+                between([0.9, 1.0], stream),
+                between([0.75, 0.95], stream),
+                0.75,
+            ],
+            gain: 0.5 * shape.detail,
+        }
+    }
+}
+
+impl Body for Fog<'_> {
+    const STEP: f32 = 0.08;
+
+    fn medium(&self, place: [f32; 3]) -> Medium {
+        veil(self.shadow(place))
+    }
+
+    fn shadow(&self, place: [f32; 3]) -> f32 {
+        let envelope = 1.0 - square([0, 1, 2].map(|a| place[a] / (REACH * self.radii[a])));
+        if envelope <= 0.0 {
+            return 0.0;
+        }
+        let there = [0, 1, 2].map(|a| place[a] / FOG_CELL + self.origin[a]);
+        let noise = self.volumes.gradients.sum(there, 3, self.gain);
+        FOG_EXTINCTION * envelope * (1.0 + FOG_UNEVEN * noise).max(0.0)
+    }
+}
+
+pub(super) struct Wisp<'a> {
+    volumes: &'a Volumes,
+    origin: [f32; 3],
+    /// Unit vector along the fibres.
+    along: [f32; 2],
+    /// How far they are curled.
+    curl: f32,
+    /// Their extent along and across, as shares of [`REACH`].
+    extent: [f32; 2],
+    gain: f32,
+}
+
+impl<'a> Wisp<'a> {
+    pub(super) fn new(volumes: &'a Volumes, shape: &SpriteShape, stream: &mut Stream) -> Wisp<'a> {
+        let origin = place_of(stream);
+        let angle = between([-0.7, 0.7], stream);
+        Wisp {
+            volumes,
+            origin,
+            along: [libm::cosf(angle), libm::sinf(angle)],
+            curl: between([0.14, 0.30], stream),
+            extent: [1.0, between([0.5, 0.9], stream)],
+            gain: 0.55 * shape.detail,
+        }
+    }
+
+    fn extinction(&self, place: [f32; 3], octaves: u32) -> f32 {
+        let [x, y, z] = place;
+        let slab = 1.0 - square([0.0, 0.0, z / WISP_DEPTH]);
+        let fade = 1.0 - square([x / REACH, y / REACH, 0.0]);
+        if slab <= 0.0 || fade <= 0.0 {
+            return 0.0;
+        }
+        let [cos, sin] = self.along;
+        let turned = [cos * x + sin * y, cos * y - sin * x, z];
+        let there = |cells: [f32; 3], by: f32| {
+            [0, 1, 2].map(|a| turned[a] / cells[a] + self.origin[a] + by)
+        };
+        let gradients = &self.volumes.gradients;
+        let curl = [1.0, 4.5].map(|by| gradients.sum(there([CURL_CELL; 3], by), octaves - 1, 0.5));
+        let [u, v] = [0, 1].map(|a| turned[a] + self.curl * curl[a]);
+        let patch = 0.5 * (curl[0] - curl[1]);
+        let fibre = {
+            let there = [0, 1, 2].map(|a| [u, v, z][a] / FIBRE_CELL[a] + self.origin[(a + 1) % 3]);
+            1.0 - 1.5 * gradients.sum(there, octaves, self.gain).abs()
+        };
+        let [e, f] = self.extent;
+        let far = square([u / (REACH * e), v / (REACH * f), 0.0]);
+        let density = fibre + patch - 0.25 - 0.9 * far;
+        WISP_EXTINCTION * slab * smoothstep(0.0, 0.35, fade) * density.max(0.0)
+    }
+}
+
+impl Body for Wisp<'_> {
+    const STEP: f32 = 0.08;
+
+    fn medium(&self, place: [f32; 3]) -> Medium {
+        veil(self.extinction(place, 4))
+    }
+
+    fn shadow(&self, place: [f32; 3]) -> f32 {
+        self.extinction(place, 2)
+    }
+}
+
+fn veil(extinction: f32) -> Medium {
+    if extinction <= 0.0 {
+        return Medium::Clear(0.0);
+    }
+    Medium::Cloud {
+        extinction,
+        openness: libm::expf(-HIDING * extinction),
+    }
+}
+
+fn square([x, y, z]: [f32; 3]) -> f32 {
+    x * x + y * y + z * z
+}
