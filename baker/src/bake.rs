@@ -9,7 +9,7 @@ use welkin_pack::{Format, Image, Pack, PackInfo, Role, Source};
 use crate::clouds::{self, photo};
 use crate::error::BakeError;
 use crate::load::{self, Picture};
-use crate::settings::{PhotoSettings, Resolved, SkyboxSettings};
+use crate::settings::{PhotoSettings, Resolved, SkyboxSettings, SpritesSettings};
 use crate::{fbm, flares, galaxy, layers, octaves, sky, skybox, sprites, stars, sun};
 
 /// How far a bake is.
@@ -107,9 +107,24 @@ pub fn skybox_faces(
     skybox::images(settings, &skybox::read(settings, base)?, &|| Ok(()))
 }
 
+/// The sheet of cloud sprites: grey and opacity, 0..1, as level 0 of the role `sprites` has them.
+///
+/// `base` is the folder that relative paths start from.
+///
+/// # Errors
+/// [`BakeError::Read`], [`BakeError::NoBase`], [`BakeError::Decode`] or [`BakeError::Photo`].
+pub fn sprite_sheet(
+    settings: &SpritesSettings,
+    seed: u64,
+    base: Option<&Path>,
+) -> Result<Image, BakeError> {
+    sprites::image(settings, &sprites::read(settings, base)?, seed)
+}
+
 /// The files that a recipe names.
 struct Files {
     photo: Option<Picture>,
+    sprites: Vec<Picture>,
     skybox: Vec<Picture>,
 }
 
@@ -121,6 +136,7 @@ impl Files {
         let skybox = skybox.map(|settings| skybox::read(settings, base));
         Ok(Files {
             photo: photo.transpose()?,
+            sprites: sprites::read(&resolved.sprites, base)?,
             skybox: skybox.transpose()?.unwrap_or_default(),
         })
     }
@@ -137,7 +153,8 @@ impl Files {
             key: picture.key.clone(),
             blake3: blake3::hash(&picture.bytes).to_hex().to_string(),
         };
-        self.photo.iter().chain(&self.skybox).map(input).collect()
+        let pictures = self.photo.iter().chain(&self.sprites).chain(&self.skybox);
+        pictures.map(input).collect()
     }
 }
 
@@ -177,7 +194,7 @@ fn make(
     step(STEPS[11], 11)?;
     let layers = layers::images(&resolved.layers, seed);
     step(STEPS[12], 12)?;
-    let sprites = sprites::image(&resolved.sprites, seed);
+    let sprites = sprites::image(&resolved.sprites, &files.sprites, seed)?;
     let mut sources = vec![
         source(Role::Clouds, clouds.format, vec![clouds_image]),
         source(Role::Stars, Format::Rgba8Unorm, vec![stars]),

@@ -39,12 +39,12 @@ mod stars;
 mod stream;
 mod sun;
 
-pub use bake::{Progress, bake, photo_channel, skybox_faces, sources};
+pub use bake::{Progress, bake, photo_channel, skybox_faces, sources, sprite_sheet};
 pub use error::{BakeError, RecipeError};
 pub use load::read_photo;
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
     CloudSettings, FbmSettings, FlareSettings, FractalSettings, GalaxySettings, GradientSettings,
     LayerSettings, LayersSettings, PhotoSettings, Resolved, SkySettings, SkyboxPicture,
-    SkyboxSettings, SpriteShape, SpritesSettings, StarSettings, SunSettings,
+    SkyboxSettings, SpriteShape, SpriteSource, SpritesSettings, StarSettings, SunSettings,
 };

@@ -146,6 +146,8 @@ pub(crate) struct Layer {
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct Sprites {
     pub size: Entry,
+    pub file: Entry,
+    pub pictures: Option<Spanned<Vec<Spanned<Value>>>>,
     pub contrast: Entry,
     pub detail: Entry,
     pub softness: Entry,

@@ -174,11 +174,22 @@ pub struct SpritesSettings {
     pub size: u32,
     /// Factor on the relief of the grey.
     pub contrast: f32,
-    /// How the clouds of noise look.
-    pub shape: SpriteShape,
+    /// What it is made from.
+    pub source: SpriteSource,
 }
 
-/// Clouds of noise on the sheet of sprites.
+/// What the sheet of sprites is made from. Pictures have an alpha channel: PNG or OpenEXR files.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SpriteSource {
+    /// Clouds of noise.
+    Noise(SpriteShape),
+    /// A square picture of all cells.
+    Sheet(String),
+    /// A square picture a cell, in the order of [`welkin_pack::SheetCell`].
+    Cells([String; 16]),
+}
+
+/// How clouds of noise look.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpriteShape {
     /// Factor on what is fine: knobs and fibres.

@@ -15,6 +15,7 @@
 //! its shape and its place in them.
 
 mod march;
+mod pictures;
 mod puff;
 mod shade;
 mod veil;
@@ -22,9 +23,12 @@ mod volume;
 
 use welkin_pack::{Image, SheetCell, SheetKind};
 
-use crate::settings::SpritesSettings;
+use crate::error::BakeError;
+use crate::load::Picture;
+use crate::settings::{SpriteShape, SpriteSource, SpritesSettings};
 use crate::stream::Stream;
 use march::picture;
+pub(crate) use pictures::read;
 use puff::Puff;
 use veil::{Fog, Wisp};
 use volume::Volume;
@@ -38,16 +42,35 @@ const RELIEF_WISP: f32 = 0.07;
 const RELIEF_PUFF: f32 = 0.13;
 
 /// The sheet: grey and opacity.
-pub(crate) fn image(settings: &SpritesSettings, seed: u64) -> Image {
+pub(crate) fn image(
+    settings: &SpritesSettings,
+    pictures: &[Picture],
+    seed: u64,
+) -> Result<Image, BakeError> {
+    let side = settings.size / SheetCell::A_SIDE;
+    let cells = match &settings.source {
+        SpriteSource::Noise(shape) => noise(shape, settings.contrast, side, seed),
+        SpriteSource::Sheet(_) | SpriteSource::Cells(_) => {
+            let cells = pictures::cells(pictures, side)?.into_iter();
+            cells
+                .map(|cell| shade::relative(&cell, settings.contrast))
+                .collect()
+        }
+    };
+    Ok(sheet(&cells))
+}
+
+/// A picture of noise a cell.
+fn noise(shape: &SpriteShape, contrast: f32, side: u32, seed: u64) -> Vec<Image> {
     let gradients = Volume::gradients(&mut Stream::new(seed, "sprites.gradients"));
     let lumps = Volume::lumps(&gradients, &mut Stream::new(seed, "sprites.lumps"));
     let volumes = Volumes { gradients, lumps };
-    let side = settings.size / SheetCell::A_SIDE;
     let cells = (0..SheetCell::COUNT).map(|index| {
         let mut stream = Stream::new(seed, &format!("sprites.{index}"));
-        cell(&volumes, settings, SheetCell(index), side, &mut stream)
+        let (picture, relief) = cell(&volumes, shape, SheetCell(index), side, &mut stream);
+        shade::standardised(&picture, contrast * relief)
     });
-    sheet(&cells.collect::<Vec<_>>())
+    cells.collect()
 }
 
 /// The noise that all sprites are cut from.
@@ -56,27 +79,26 @@ struct Volumes {
     lumps: Volume,
 }
 
+/// Light times opacity, and opacity; and the relief that it is to have.
 fn cell(
     volumes: &Volumes,
-    settings: &SpritesSettings,
+    shape: &SpriteShape,
     cell: SheetCell,
     side: u32,
     stream: &mut Stream,
-) -> Image {
-    let shape = &settings.shape;
-    let (picture, relief) = match cell.kind() {
+) -> (Image, f32) {
+    match cell.kind() {
         SheetKind::Foggy => (picture(&Fog::new(volumes, shape, stream), side), RELIEF_FOG),
-        SheetKind::Wispy => (
-            picture(&Wisp::new(volumes, shape, stream), side),
-            RELIEF_WISP,
-        ),
+        SheetKind::Wispy => {
+            let wisp = Wisp::new(volumes, shape, stream);
+            (picture(&wisp, side), RELIEF_WISP)
+        }
         kind @ (SheetKind::FlatBottomed | SheetKind::Puffy) => {
             let is_flat = kind == SheetKind::FlatBottomed;
             let puff = Puff::new(volumes, shape, is_flat, stream);
             (picture(&puff, side), RELIEF_PUFF)
         }
-    };
-    shade::standardised(&picture, settings.contrast * relief)
+    }
 }
 
 /// The cells on one sheet, the outermost texels of each transparent.

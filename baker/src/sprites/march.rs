@@ -14,6 +14,10 @@ pub(super) trait Body: Sync {
     /// Length of a step through it.
     const STEP: f32;
 
+    /// Between which z a ray along -z through this x and y may meet it: the first is not more than the second where it
+    /// meets nothing.
+    fn span(&self, place: [f32; 2]) -> [f32; 2];
+
     /// What is there.
     fn medium(&self, place: [f32; 3]) -> Medium;
 
@@ -23,8 +27,8 @@ pub(super) trait Body: Sync {
 
 /// What is in one place of a cloud.
 pub(super) enum Medium {
-    /// Nothing, and nothing nearer than this.
-    Clear(f32),
+    /// Nothing.
+    Clear,
     /// Cloud.
     Cloud {
         /// Optical depth a unit of length.
@@ -35,10 +39,10 @@ pub(super) enum Medium {
 }
 
 /// Where the ray is no more transparent than this, it ends.
-const OPAQUE: f32 = 1.0 / 256.0;
+const OPAQUE: f32 = 1.0 / 128.0;
 
 /// A step that is seen less than this is as bright as the one before it.
-const FAINT: f32 = 1.0 / 64.0;
+const FAINT: f32 = 1.0 / 32.0;
 
 /// Unit vector to the light: from the viewer's side, half right and from above.
 const LIGHT: [f32; 3] = [0.2, 0.52, 0.83];
@@ -69,11 +73,11 @@ pub(super) fn picture(body: &impl Body, side: u32) -> Image {
 fn ray<B: Body>(body: &B, [x, y]: [f32; 2]) -> [f32; 2] {
     let step = B::STEP;
     let (mut clear, mut light, mut before) = (1.0, 0.0, None);
-    let mut z = 1.0;
-    while z > -1.0 && clear > OPAQUE {
+    let [mut z, back] = body.span([x, y]);
+    while z > back && clear > OPAQUE {
         let place = [x, y, z];
         match body.medium(place) {
-            Medium::Clear(away) => z -= away.max(step),
+            Medium::Clear => {}
             Medium::Cloud {
                 extinction,
                 openness,
@@ -86,9 +90,9 @@ fn ray<B: Body>(body: &B, [x, y]: [f32; 2]) -> [f32; 2] {
                 before = Some(shine);
                 light += seen * shine;
                 clear *= passed;
-                z -= step;
             }
         }
+        z -= step;
     }
     [light, 1.0 - clear]
 }
@@ -102,4 +106,65 @@ fn brightness(body: &impl Body, place: [f32; 3], openness: f32) -> f32 {
         from = to;
     }
     DIRECT * libm::expf(-DIMMING * depth) + (1.0 - DIRECT) * openness
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A block from z = 0.5 to -0.5 of one optical depth a unit, in which light is dimmed by another.
+    struct Block {
+        extinction: f32,
+        shadow: f32,
+    }
+
+    impl Body for Block {
+        const STEP: f32 = 1.0 / 64.0;
+
+        fn span(&self, [x, _]: [f32; 2]) -> [f32; 2] {
+            if x < 0.0 { [1.0, -1.0] } else { [0.0; 2] }
+        }
+
+        fn medium(&self, [_, _, z]: [f32; 3]) -> Medium {
+            if !(-0.5..0.5).contains(&z) {
+                return Medium::Clear;
+            }
+            Medium::Cloud {
+                extinction: self.extinction,
+                openness: 0.25,
+            }
+        }
+
+        fn shadow(&self, _: [f32; 3]) -> f32 {
+            self.shadow
+        }
+    }
+
+    #[test]
+    fn opacity_is_that_of_beer_and_lambert() {
+        for extinction in [0.01, 0.3, 1.0, 4.0] {
+            let block = Block {
+                extinction,
+                shadow: 0.0,
+            };
+            let [light, alpha] = ray(&block, [-0.5, 0.0]);
+            assert!((alpha - 1.0 + libm::expf(-extinction)).abs() < 1e-5);
+            // One half is not dimmed, of the other a quarter is left.
+            assert!((light / alpha - 0.625).abs() < 1e-5);
+            assert_eq!(ray(&block, [0.5, 0.0]), [0.0, 0.0]);
+        }
+    }
+
+    #[test]
+    fn light_is_dimmed_on_its_way_and_rays_end_where_all_is_hidden() {
+        let block = Block {
+            extinction: 1e4,
+            shadow: 5.0,
+        };
+        let [light, alpha] = ray(&block, [-0.5, 0.0]);
+        assert!(alpha > 1.0 - OPAQUE);
+        let depth = 5.0 * LIGHT_STEPS[LIGHT_STEPS.len() - 1];
+        let expected = 0.5 * libm::expf(-DIMMING * depth) + 0.5 * 0.25;
+        assert!((light - expected).abs() < 1e-5);
+    }
 }

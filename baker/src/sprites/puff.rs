@@ -35,10 +35,11 @@ const EXTINCTION: f32 = 26.0;
 /// How fast the light from everywhere falls off with the depth of a crease.
 const HIDING: f32 = 5.0;
 
-/// Where the flat bottom is, how far it fades up and down from there, and how uneven it is.
+/// Where the flat bottom is, how far it fades up and down from there, how uneven it is, and how large the unevenness.
 const FLOOR: f32 = -0.2;
 const FLOOR_FADE: f32 = 0.08;
 const FLOOR_UNEVEN: f32 = 0.03;
+const FLOOR_CELL: f32 = 0.2;
 
 pub(super) struct Puff<'a> {
     volumes: &'a Volumes,
@@ -53,6 +54,8 @@ pub(super) struct Puff<'a> {
 struct Ball {
     centre: [f32; 3],
     radius: f32,
+    /// `1 / 2r`.
+    scale: f32,
 }
 
 impl<'a> Puff<'a> {
@@ -63,10 +66,7 @@ impl<'a> Puff<'a> {
         stream: &mut Stream,
     ) -> Puff<'a> {
         let origin = place_of(stream);
-        let mut balls = vec![Ball {
-            centre: [0.0; 3],
-            radius: between(MIDDLE, stream),
-        }];
+        let mut balls = vec![Ball::new([0.0; 3], between(MIDDLE, stream))];
         let first = between([0.0, 1.0], stream);
         for i in 0..COUNT {
             let turn = (i as f32 + between([-0.35, 0.35], stream)) / COUNT as f32;
@@ -91,13 +91,13 @@ impl<'a> Puff<'a> {
         }
     }
 
-    /// Depth below the balls' surface.
+    /// Depth below the balls' surface: near a ball of the radius `r`, `(r^2 - d^2) / 2r` is about `r - d`.
     fn depth(&self, place: [f32; 3]) -> f32 {
         let depths = self.balls.iter().map(|ball| {
             let [x, y, z] = [0, 1, 2].map(|a| place[a] - ball.centre[a]);
-            ball.radius - libm::sqrtf(x * x + y * y + z * z)
+            0.5 * ball.radius - ball.scale * (x * x + y * y + z * z)
         });
-        depths.fold(f32::MIN, f32::max)
+        depths.fold(f32::MIN, |a, b| if b > a { b } else { a })
     }
 
     /// Depth below the first so many knobs, and how far the place lies in their creases. Where the depth is below 0 there
@@ -116,47 +116,70 @@ impl<'a> Puff<'a> {
         [depth, crease]
     }
 
-    fn extinction(&self, depth: f32, place: [f32; 3]) -> f32 {
-        let density = (depth / self.edge).clamp(0.0, 1.0);
+    /// Share of the density that a flat bottom leaves: none below it.
+    fn above_floor(&self, place: [f32; 3]) -> f32 {
         if !self.is_flat {
-            return EXTINCTION * density;
+            return 1.0;
         }
-        let rough = self.volumes.gradients.at(place.map(|c| c / 0.2));
+        let rough = self.volumes.gradients.at(place.map(|c| c / FLOOR_CELL));
         let height = place[1] + FLOOR_UNEVEN * rough - FLOOR;
-        EXTINCTION * density * filter::smoothstep(-FLOOR_FADE, FLOOR_FADE, height)
+        filter::smoothstep(-FLOOR_FADE, FLOOR_FADE, height)
+    }
+
+    fn extinction(&self, depth: f32, above_floor: f32) -> f32 {
+        EXTINCTION * (depth / self.edge).clamp(0.0, 1.0) * above_floor
     }
 }
 
 impl Ball {
+    fn new(centre: [f32; 3], radius: f32) -> Ball {
+        Ball {
+            centre,
+            radius,
+            scale: 0.5 / radius,
+        }
+    }
+
     /// A ball beside the middle, at an angle.
     fn around(angle: f32, stream: &mut Stream) -> Ball {
         let radius = between(AROUND, stream);
         let far = (REACH - radius) * between([0.82, 1.0], stream);
         let near = between([-0.1, 0.35], stream);
-        Ball {
-            centre: [far * libm::cosf(angle), far * libm::sinf(angle), near],
-            radius,
-        }
+        let [x, y] = [libm::cosf(angle), libm::sinf(angle)].map(|c| far * c);
+        Ball::new([x, y, near], radius)
     }
 }
 
 impl Body for Puff<'_> {
     const STEP: f32 = 0.025;
 
+    fn span(&self, [x, y]: [f32; 2]) -> [f32; 2] {
+        let spans = self.balls.iter().filter_map(|ball| {
+            let [u, v] = [x - ball.centre[0], y - ball.centre[1]];
+            let square = ball.radius * ball.radius - u * u - v * v;
+            let half = (square > 0.0).then(|| libm::sqrtf(square))?;
+            Some([ball.centre[2] + half, ball.centre[2] - half])
+        });
+        spans.fold([-1.0, 1.0], |[front, back], [from, to]| {
+            [from.max(front), to.min(back)]
+        })
+    }
+
     fn medium(&self, place: [f32; 3]) -> Medium {
         let [depth, crease] = self.below(place, self.knobs.len());
         if depth <= 0.0 {
-            // The knobs are steeper than the balls, so only half of the way is surely free.
-            return Medium::Clear(-0.5 * depth);
+            return Medium::Clear;
         }
+        let above_floor = self.above_floor(place);
         Medium::Cloud {
-            extinction: self.extinction(depth, place),
-            openness: libm::expf(-HIDING * crease),
+            extinction: self.extinction(depth, above_floor),
+            // The floor is thin and would shine, but no light comes to it from below.
+            openness: above_floor * libm::expf(-HIDING * crease),
         }
     }
 
     fn shadow(&self, place: [f32; 3]) -> f32 {
         let [depth, _] = self.below(place, SHADOW_KNOBS);
-        self.extinction(depth, place)
+        self.extinction(depth, self.above_floor(place))
     }
 }

@@ -8,6 +8,9 @@ use crate::filter;
 /// would betray a sprite that comes again.
 const OUTLIER: f32 = 1.8;
 
+/// A standard deviation of less than this share of the mean is rounding.
+const LEAST_SPREAD: f32 = 1e-4;
+
 /// Weight of what is around beside a texel's own opacity.
 const AROUND: f32 = 1.0 / 64.0;
 
@@ -20,11 +23,22 @@ pub(super) fn standardised(picture: &Image, relief: f32) -> Image {
         f64::from(alpha * away * away)
     });
     let spread = libm::sqrt(squares.sum::<f64>() / weight(picture)) as f32;
-    let scale = if spread > 0.0 { 1.0 / spread } else { 0.0 };
+    let scale = if spread > LEAST_SPREAD * mean {
+        1.0 / spread
+    } else {
+        0.0
+    };
     finished(picture, |light| {
         let away = scale * (light - mean);
         relief * away / libm::sqrtf(1.0 + away * away / (OUTLIER * OUTLIER))
     })
+}
+
+/// The same with the relief that a picture has: `contrast` times the light relative to its mean.
+pub(super) fn relative(picture: &Image, contrast: f32) -> Image {
+    let mean = mean(picture);
+    let scale = if mean > 0.0 { 0.5 / mean } else { 0.0 };
+    finished(picture, |light| contrast * scale * (light - mean))
 }
 
 /// Grey is 0.5 and what `away` makes of the light.
@@ -81,15 +95,93 @@ fn texels(image: &Image) -> impl Iterator<Item = [f32; 2]> + '_ {
     image.texels.chunks_exact(2).map(|t| [t[0], t[1]])
 }
 
+/// Sum of the opacity.
 fn weight(image: &Image) -> f64 {
-    texels(image)
-        .map(|[_, alpha]| f64::from(alpha))
-        .sum::<f64>()
-        .max(f64::MIN_POSITIVE)
+    texels(image).map(|[_, alpha]| f64::from(alpha)).sum()
 }
 
-/// Mean light of what is opaque.
+/// Mean light of what is opaque, 0.5 where nothing is.
 fn mean(image: &Image) -> f32 {
+    let weight = weight(image);
+    if weight <= 0.0 {
+        return 0.5;
+    }
     let light: f64 = texels(image).map(|[light, _]| f64::from(light)).sum();
-    (light / weight(image)) as f32
+    (light / weight) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIDE: u32 = 32;
+
+    /// A disc with a soft edge and a light of its own.
+    fn disc(light: impl Fn(f32, f32) -> f32) -> Image {
+        let mut image = Image::new(SIDE, SIDE, 2);
+        for (i, texel) in (0..).zip(image.texels.chunks_exact_mut(2)) {
+            let [u, v] = [i % SIDE, i / SIDE].map(|c| (c as f32 + 0.5) / SIDE as f32 * 2.0 - 1.0);
+            let alpha = ((0.7 - libm::sqrtf(u * u + v * v)) / 0.2).clamp(0.0, 1.0);
+            texel.copy_from_slice(&[alpha * light(u, v), alpha]);
+        }
+        image
+    }
+
+    /// Mean and standard deviation of the grey, weighted by opacity.
+    fn statistics(image: &Image) -> [f64; 2] {
+        let sum = |value: &dyn Fn(f64) -> f64| {
+            let weighted = texels(image).map(|[g, a]| f64::from(a) * value(f64::from(g)));
+            weighted.sum::<f64>() / weight(image)
+        };
+        let mean = sum(&|grey| grey);
+        let variance = sum(&|grey| (grey - mean) * (grey - mean));
+        [mean, libm::sqrt(variance)]
+    }
+
+    #[test]
+    fn the_mean_is_one_half_and_the_relief_is_what_was_asked() {
+        let waves = disc(|u, v| 3.0 + libm::sinf(6.0 * u) * libm::cosf(5.0 * v));
+        for relief in [0.0, 0.05, 0.1] {
+            let [mean, spread] = statistics(&standardised(&waves, relief));
+            assert!((mean - 0.5).abs() < 1e-6, "{mean}");
+            // Bending takes a part of it, and what is around too.
+            let relief = f64::from(relief);
+            assert!((0.6 * relief..=relief + 1e-6).contains(&spread), "{spread}");
+        }
+    }
+
+    #[test]
+    fn a_picture_keeps_its_own_contrast() {
+        // Twice as bright on the right as on the left: 4/3 and 2/3 of the mean.
+        let halves = disc(|u, _| if u > 0.0 { 0.4 } else { 0.2 });
+        for contrast in [0.0, 0.5, 1.0] {
+            let grey = relative(&halves, contrast);
+            let [left, right] = [10, 21].map(|x| grey.texel(x, 16)[0]);
+            let expected = contrast / 6.0;
+            // A 64th of it is what is around.
+            assert!((0.5 - left - expected).abs() < expected / 50.0 + 1e-6);
+            assert!((right - 0.5 - expected).abs() < expected / 50.0 + 1e-6);
+        }
+    }
+
+    #[test]
+    fn grey_goes_on_where_there_is_no_cloud() {
+        let grey = standardised(&disc(|u, _| 1.0 + 0.5 * u), 0.1);
+        let row: Vec<f32> = (0..SIDE).map(|x| grey.texel(x, 16)[0]).collect();
+        assert_eq!(grey.texel(31, 16)[1], 0.0);
+        // To the side it stays as bright as the cloud is there, and nowhere is there a step.
+        assert!(row[31] > 0.55 && row[0] < 0.45, "{row:?}");
+        assert!(row.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.03));
+        let opacity: Vec<f32> = disc(|_, _| 0.0).channel(1).collect();
+        assert!(opacity == grey.channel(1).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn nothing_and_one_light_alone_have_no_relief() {
+        for picture in [Image::new(SIDE, SIDE, 2), disc(|_, _| 0.3)] {
+            for grey in [standardised(&picture, 0.2), relative(&picture, 1.0)] {
+                assert!(grey.channel(0).all(|grey| (grey - 0.5).abs() < 1e-3));
+            }
+        }
+    }
 }

@@ -11,10 +11,10 @@ const HIDING: f32 = 0.25;
 
 /// Size of a cell of the noise in fog, and how much it changes the density.
 const FOG_CELL: f32 = 0.5;
-const FOG_UNEVEN: f32 = 0.9;
+const FOG_UNEVEN: f32 = 0.8;
 
 /// Optical depth a unit of length in the middle of fog.
-const FOG_EXTINCTION: f32 = 1.6;
+const FOG_EXTINCTION: f32 = 2.0;
 
 /// Half of the thickness of wisps.
 const WISP_DEPTH: f32 = 0.4;
@@ -54,18 +54,30 @@ impl<'a> Fog<'a> {
 impl Body for Fog<'_> {
     const STEP: f32 = 0.08;
 
+    fn span(&self, [x, y]: [f32; 2]) -> [f32; 2] {
+        let [a, b, c] = self.radii.map(|r| REACH * r);
+        let half = 1.0 - square([x / a, y / b, 0.0]);
+        [c, -c].map(|z| z * libm::sqrtf(half.max(0.0)))
+    }
+
     fn medium(&self, place: [f32; 3]) -> Medium {
-        veil(self.shadow(place))
+        veil(self.extinction(place, 3))
     }
 
     fn shadow(&self, place: [f32; 3]) -> f32 {
+        self.extinction(place, 1)
+    }
+}
+
+impl Fog<'_> {
+    fn extinction(&self, place: [f32; 3], octaves: u32) -> f32 {
         let envelope = 1.0 - square([0, 1, 2].map(|a| place[a] / (REACH * self.radii[a])));
         if envelope <= 0.0 {
             return 0.0;
         }
         let there = [0, 1, 2].map(|a| place[a] / FOG_CELL + self.origin[a]);
-        let noise = self.volumes.gradients.sum(there, 3, self.gain);
-        FOG_EXTINCTION * envelope * (1.0 + FOG_UNEVEN * noise).max(0.0)
+        let noise = self.volumes.gradients.sum(there, octaves, self.gain);
+        FOG_EXTINCTION * envelope * (envelope + FOG_UNEVEN * noise).max(0.0)
     }
 }
 
@@ -108,22 +120,33 @@ impl<'a> Wisp<'a> {
             [0, 1, 2].map(|a| turned[a] / cells[a] + self.origin[a] + by)
         };
         let gradients = &self.volumes.gradients;
-        let curl = [1.0, 4.5].map(|by| gradients.sum(there([CURL_CELL; 3], by), octaves - 1, 0.5));
+        let curl = [1.0, 4.5].map(|by| gradients.sum(there([CURL_CELL; 3], by), octaves / 2, 0.5));
         let [u, v] = [0, 1].map(|a| turned[a] + self.curl * curl[a]);
         let patch = 0.5 * (curl[0] - curl[1]);
+        let [e, f] = self.extent;
+        let patch = patch - 0.18 - 0.9 * square([u / (REACH * e), v / (REACH * f), 0.0]);
+        if patch <= -1.0 {
+            return 0.0;
+        }
         let fibre = {
             let there = [0, 1, 2].map(|a| [u, v, z][a] / FIBRE_CELL[a] + self.origin[(a + 1) % 3]);
             1.0 - 1.5 * gradients.sum(there, octaves, self.gain).abs()
         };
-        let [e, f] = self.extent;
-        let far = square([u / (REACH * e), v / (REACH * f), 0.0]);
-        let density = fibre + patch - 0.25 - 0.9 * far;
+        let density = fibre + patch;
         WISP_EXTINCTION * slab * smoothstep(0.0, 0.35, fade) * density.max(0.0)
     }
 }
 
 impl Body for Wisp<'_> {
-    const STEP: f32 = 0.08;
+    const STEP: f32 = 0.1;
+
+    fn span(&self, [x, y]: [f32; 2]) -> [f32; 2] {
+        if x * x + y * y > REACH * REACH {
+            return [0.0; 2];
+        }
+        // Half a step inside, so that the first step counts.
+        [WISP_DEPTH - 0.5 * Self::STEP, -WISP_DEPTH]
+    }
 
     fn medium(&self, place: [f32; 3]) -> Medium {
         veil(self.extinction(place, 4))
@@ -136,7 +159,7 @@ impl Body for Wisp<'_> {
 
 fn veil(extinction: f32) -> Medium {
     if extinction <= 0.0 {
-        return Medium::Clear(0.0);
+        return Medium::Clear;
     }
     Medium::Cloud {
         extinction,

@@ -25,7 +25,8 @@ const APART: f32 = 2.7;
 
 /// A cube of noise that repeats in all directions.
 pub(super) struct Volume {
-    voxels: Vec<f32>,
+    /// Sheets along z, each row by row.
+    sheets: Vec<[f32; SIDE * SIDE]>,
 }
 
 impl Volume {
@@ -58,15 +59,14 @@ impl Volume {
 
     /// A value for each voxel's place, in cells.
     fn new(value: impl Fn([f32; 3]) -> f32 + Sync) -> Volume {
-        let mut voxels = vec![0.0; SIDE * SIDE * SIDE];
+        let mut sheets = vec![[0.0; SIDE * SIDE]; SIDE];
         let scale = CELLS as f32 / SIDE as f32;
-        let rows = voxels.par_chunks_mut(SIDE).enumerate();
-        rows.for_each(|(row, voxels)| {
-            for (i, voxel) in voxels.iter_mut().enumerate() {
-                *voxel = value([i, row % SIDE, row / SIDE].map(|i| i as f32 * scale));
+        sheets.par_iter_mut().enumerate().for_each(|(z, sheet)| {
+            for (i, voxel) in sheet.iter_mut().enumerate() {
+                *voxel = value([i % SIDE, i / SIDE, z].map(|i| i as f32 * scale));
             }
         });
-        Volume { voxels }
+        Volume { sheets }
     }
 
     /// The noise at a place, in cells: linear between voxels.
@@ -76,11 +76,11 @@ impl Volume {
         let [right, up, near] = [0, 1, 2].map(|a| place[a] - corner[a] as f32);
         // A power of two, so numbers below 0 wrap as they should.
         let [x, y, z] = corner.map(|i| [i, i + 1].map(|i| i as usize % SIDE));
-        let row = |y: usize, z: usize| {
-            let start = (z * SIDE + y) * SIDE;
-            mix(self.voxels[start + x[0]], self.voxels[start + x[1]], right)
+        let sheet = |z: usize| {
+            let voxels = &self.sheets[z];
+            let row = |y: usize| mix(voxels[y * SIDE + x[0]], voxels[y * SIDE + x[1]], right);
+            mix(row(y[0]), row(y[1]), up)
         };
-        let sheet = |z: usize| mix(row(y[0], z), row(y[1], z), up);
         mix(sheet(z[0]), sheet(z[1]), near)
     }
 

@@ -1,7 +1,5 @@
 //! The sheet of cloud sprites.
 
-use std::f64::consts::PI;
-
 use super::report::{Bound, Report};
 use super::rule::{
     SPRITE_BORDER, SPRITE_CELLS, SPRITE_CORE, SPRITE_FLAT, SPRITE_FOG, SPRITE_GREY, SPRITE_LEVEL,
@@ -13,9 +11,6 @@ use crate::{Image, Role, SheetCell, SheetKind, Texture};
 const NAME: &str = Role::Sprites.name();
 const GREY: usize = 0;
 const ALPHA: usize = 1;
-
-/// Mean opacity of a cell. The most is that of a disc as wide as the cell: more is a square.
-const OPACITY: [f64; 2] = [0.02, PI / 4.0];
 
 /// Opacity that the densest place of a puff has at least, or the sky shows through a heap of few sprites.
 const LEAST_CORE: f64 = 0.9;
@@ -31,7 +26,7 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         .map(|index| Cell::new(&levels[0], SheetCell(index)))
         .collect();
     for (index, cell) in cells.iter().enumerate() {
-        let [least, most] = OPACITY;
+        let [least, most] = SheetCell::OPACITY.map(f64::from);
         report.measure(
             SPRITE_CELLS,
             &format!("{NAME} {index}"),
@@ -195,25 +190,34 @@ impl Cell<'_> {
         libm::sqrt(sum / weights)
     }
 
-    /// How uneven the lower outline is beside the upper one: the ratio of their standard deviations. An outline is, column
-    /// by column, the first row from below or above that is half as opaque as the densest texel; half a texel is none.
+    /// How uneven the lower outline is beside the upper one: the ratio of their median deviations, which the ends hardly
+    /// change. An outline is, column by column, the first row from below or above that is half as opaque as the densest
+    /// texel.
     fn unevenness(&self) -> f64 {
         let half = self.peak() / 2.0;
         let outlines = (0..self.side).filter_map(|x| {
             let mut rows = (0..self.side).filter(|&y| self.texel([x, y])[1] >= half);
             let upper = rows.next()?;
-            Some([upper, rows.next_back().unwrap_or(upper)].map(f64::from))
+            Some([upper, rows.next_back().unwrap_or(upper)])
         });
-        let outlines: Vec<[f64; 2]> = outlines.collect();
-        let [upper, lower] = [0, 1].map(|i| spread(outlines.iter().map(|rows| rows[i])));
-        lower / (upper + 0.5)
+        let outlines: Vec<[u32; 2]> = outlines.collect();
+        let [upper, lower] = [0, 1].map(|i| deviation(outlines.iter().map(|rows| rows[i])));
+        if lower == 0 {
+            return 0.0;
+        }
+        f64::from(lower) / f64::from(upper)
     }
 }
 
-/// Standard deviation.
-fn spread(values: impl Iterator<Item = f64> + Clone) -> f64 {
-    let count = values.clone().count() as f64;
-    let mean = values.clone().sum::<f64>() / count;
-    let squares: f64 = values.map(|v| (v - mean) * (v - mean)).sum();
-    libm::sqrt(squares / count)
+/// Median distance from the median.
+fn deviation(values: impl Iterator<Item = u32>) -> u32 {
+    let mut values: Vec<u32> = values.collect();
+    let middle = median(&mut values);
+    values.iter_mut().for_each(|v| *v = v.abs_diff(middle));
+    median(&mut values)
+}
+
+fn median(values: &mut [u32]) -> u32 {
+    values.sort_unstable();
+    values.get(values.len() / 2).copied().unwrap_or(0)
 }
