@@ -186,7 +186,7 @@ pub enum SpriteSource {
     /// A square picture of all cells.
     Sheet(String),
     /// A square picture a cell, in the order of [`welkin_pack::SheetCell`].
-    Cells([String; 16]),
+    Cells(Box<[String; 16]>),
 }
 
 /// How clouds of noise look.

@@ -1,5 +1,7 @@
 //! The sheet of cloud sprites: what each kind looks like.
 
+#![allow(clippy::unwrap_used, reason = "a test may stop where it fails")]
+
 mod common;
 
 use std::sync::OnceLock;
@@ -144,25 +146,16 @@ fn puffs_are_no_discs_and_wisps_are_torn() {
     for (seed, sheet) in (1..).zip(by_seeds()) {
         for (kind, cell) in cells(sheet) {
             let ragged = raggedness(&cell, 0.5 * peak(&cell));
+            // A disc has 1, and half of one 1.06.
             let expected = match kind {
                 SheetKind::Foggy => 0.95..1.5,
                 SheetKind::Wispy => 1.5..10.0,
-                SheetKind::FlatBottomed | SheetKind::Puffy => 1.15..2.5,
+                SheetKind::FlatBottomed => 1.06..2.5,
+                SheetKind::Puffy => 1.1..2.5,
             };
             assert!(expected.contains(&ragged), "seed {seed}: {kind:?} {ragged}");
         }
     }
-}
-
-/// How alike the relief of two sprites is: the coefficient of correlation.
-fn correlation(one: &Image, other: &Image) -> f32 {
-    let relief = |cell: &Image| -> Vec<f32> {
-        let texels = cell.texels.chunks_exact(2);
-        texels.map(|t| t[1] * (t[0] - 0.5)).collect()
-    };
-    let [one, other] = [one, other].map(relief);
-    let product = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f32>();
-    product(&one, &other) / libm::sqrtf(product(&one, &one) * product(&other, &other))
 }
 
 #[test]
@@ -173,11 +166,12 @@ fn no_two_sprites_are_alike() {
         .map(|(_, cell)| cell)
         .collect();
     for (i, one) in cells.iter().enumerate() {
-        assert!(correlation(one, one) > 0.99);
         for (j, other) in cells[..i].iter().enumerate() {
-            // The light from above is common to all, and in fog there is little else.
-            let alike = correlation(one, other);
-            assert!(alike < 0.9, "{i} and {j}: {alike}");
+            let pairs = one.channel(1).zip(other.channel(1));
+            let apart: f32 = pairs.map(|(a, b)| (a - b).abs()).sum();
+            // Puffs all fill the middle of their cells; a twentieth is far more than their edges' softness.
+            let all: f32 = one.channel(1).sum();
+            assert!(apart > 0.05 * all, "{i} and {j}");
         }
     }
 }

@@ -9,8 +9,9 @@ use crate::settings::{SpriteShape, SpriteSource, SpritesSettings};
 
 const FILE: &str = "the path of a PNG or OpenEXR file with alpha, as text";
 
-/// Pictures on the sheet.
-const PICTURES: usize = 16;
+const PICTURES: &str = "a list of 16 files: 3 of fog, 1 with a flat bottom, 6 of wisps, 6 of puffs";
+
+const EITHER: &str = "none with `file`, which is a picture of all cells; remove one of the two";
 
 impl Recipe {
     pub(super) fn sprites(&self) -> Result<SpritesSettings, RecipeError> {
@@ -34,9 +35,8 @@ impl Recipe {
             (Some(file), None) => SpriteSource::Sheet(self.sprite_file("sprites.file", file)?),
             (None, Some(pictures)) => self.sprite_cells(pictures)?,
             (Some(_), Some(pictures)) => {
-                let expected =
-                    "none with `file`, which is a picture of all cells; remove one of the two";
-                return Err(self.refuse_at("sprites.pictures", pictures.span(), "given", expected));
+                let span = pictures.span();
+                return Err(self.refuse_at("sprites.pictures", span, "given", EITHER));
             }
         };
         self.refuse_shape("sprites.detail", &s.detail)?;
@@ -52,13 +52,12 @@ impl Recipe {
         let files: Vec<String> = entries
             .map(|(cell, value)| self.sprite_file(&format!("sprites.pictures[{cell}]"), value))
             .collect::<Result<_, _>>()?;
-        files.try_into().map(SpriteSource::Cells).map_err(|files: Vec<_>| {
+        let refuse = |files: Vec<String>| {
             let found = format!("a list of {}", files.len());
-            let expected = format!(
-                "a list of {PICTURES} files: 3 of fog, 1 with a flat bottom, 6 of wisps, 6 of puffs"
-            );
-            self.refuse_at("sprites.pictures", pictures.span(), found, expected)
-        })
+            self.refuse_at("sprites.pictures", pictures.span(), found, PICTURES)
+        };
+        let cells = Box::new(files.try_into().map_err(refuse)?);
+        Ok(SpriteSource::Cells(cells))
     }
 
     fn sprite_file(&self, key: &str, value: &Spanned<Value>) -> Result<String, RecipeError> {

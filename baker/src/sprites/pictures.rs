@@ -72,8 +72,8 @@ fn decode(picture: &Picture, a_side: u32) -> Result<Image, BakeError> {
             1 => String::new(),
             _ => format!(", {a_side}x{a_side} cells of whole texels"),
         };
-        let expected =
-            format!("a square of {least} to {most} texels a side{cells}; crop or resize it");
+        let sides = format!("{least} to {most} texels a side");
+        let expected = format!("a square of {sides}{cells}; crop or resize it");
         Err(unfit_size(&picture.file, [width, height], expected))
     })?;
     let mut image = Image::new(decoded.width, decoded.height, 2);

@@ -8,12 +8,21 @@ use crate::filter;
 use crate::settings::SpriteShape;
 use crate::stream::Stream;
 
-/// Radii of the ball in the middle and of those around it.
+/// Radii of the ball in the middle of a puff and of those around it, and how many these are.
 const MIDDLE: [f32; 2] = [0.50, 0.58];
 const AROUND: [f32; 2] = [0.28, 0.42];
-
-/// How many are around it.
 const COUNT: u32 = 8;
+
+/// Balls side by side on a flat bottom: where from left to right, how high above it, and their radii.
+const BASE: [f32; 4] = [-0.38, -0.14, 0.14, 0.38];
+const BASE_HEIGHT: f32 = 0.06;
+const BASE_RADII: [f32; 2] = [0.40, 0.46];
+
+/// How high above it the one in the middle is.
+const HEART_HEIGHT: f32 = 0.28;
+
+/// How many are around these.
+const UPPER_COUNT: u32 = 6;
 
 /// Knobs on knobs: size of a cell, height, and how much more than its depth a crease is hidden from the light.
 const KNOBS: [[f32; 3]; 4] = [
@@ -44,11 +53,20 @@ const FLOOR_CELL: f32 = 0.2;
 pub(super) struct Puff<'a> {
     volumes: &'a Volumes,
     balls: Vec<Ball>,
-    /// Where in the volumes of noise it lies, in cells.
-    origin: [f32; 3],
-    knobs: [[f32; 3]; 4],
+    knobs: [Knobs; 4],
     edge: f32,
     is_flat: bool,
+}
+
+/// Knobs of one size.
+#[derive(Clone, Copy)]
+struct Knobs {
+    /// Cells a unit of length.
+    cells: f32,
+    height: f32,
+    hidden: f32,
+    /// Where in the volume of noise they lie, in cells.
+    origin: [f32; 3],
 }
 
 struct Ball {
@@ -65,26 +83,23 @@ impl<'a> Puff<'a> {
         is_flat: bool,
         stream: &mut Stream,
     ) -> Puff<'a> {
-        let origin = place_of(stream);
-        let mut balls = vec![Ball::new([0.0; 3], between(MIDDLE, stream))];
-        let first = between([0.0, 1.0], stream);
-        for i in 0..COUNT {
-            let turn = (i as f32 + between([-0.35, 0.35], stream)) / COUNT as f32;
-            balls.push(Ball::around(TAU * (first + turn), stream));
-        }
-        if is_flat {
-            for ball in &mut balls {
-                ball.centre[1] = ball.centre[1].max(FLOOR);
-            }
-        }
-        let mut knobs = KNOBS;
-        for [_, height, _] in &mut knobs[1..] {
-            *height *= shape.detail;
+        let balls = if is_flat {
+            heap(stream)
+        } else {
+            cluster(stream)
+        };
+        let mut knobs = KNOBS.map(|[cell, height, hidden]| Knobs {
+            cells: 1.0 / cell,
+            height,
+            hidden,
+            origin: place_of(stream),
+        });
+        for finer in &mut knobs[1..] {
+            finer.height *= shape.detail;
         }
         Puff {
             volumes,
             balls,
-            origin,
             knobs,
             edge: EDGE * shape.softness,
             is_flat,
@@ -104,14 +119,14 @@ impl<'a> Puff<'a> {
     /// is nothing, and the finer knobs are not asked.
     fn below(&self, place: [f32; 3], knobs: usize) -> [f32; 2] {
         let (mut depth, mut crease) = (self.depth(place), 0.0);
-        for [cell, height, hidden] in &self.knobs[..knobs] {
+        for knobs in &self.knobs[..knobs] {
             if depth <= 0.0 {
                 break;
             }
-            let there = [0, 1, 2].map(|a| place[a] / cell + self.origin[a] * (1.0 + cell));
-            let missing = height * (1.0 - self.volumes.lumps.at(there));
+            let there = [0, 1, 2].map(|a| knobs.cells * place[a] + knobs.origin[a]);
+            let missing = knobs.height * (1.0 - self.volumes.lumps.at(there));
             depth -= missing;
-            crease += hidden * missing;
+            crease += knobs.hidden * missing;
         }
         [depth, crease]
     }
@@ -132,22 +147,52 @@ impl<'a> Puff<'a> {
 }
 
 impl Ball {
-    fn new(centre: [f32; 3], radius: f32) -> Ball {
+    /// A ball that ends within [`REACH`].
+    fn new([x, y, z]: [f32; 3], radius: f32) -> Ball {
+        let radius = radius.min(REACH - libm::sqrtf(x * x + y * y));
         Ball {
-            centre,
+            centre: [x, y, z],
             radius,
             scale: 0.5 / radius,
         }
     }
 
-    /// A ball beside the middle, at an angle.
-    fn around(angle: f32, stream: &mut Stream) -> Ball {
+    /// A ball at the side of a puff; `turn` is 0 to the right, 0.25 above.
+    fn around(turn: f32, stream: &mut Stream) -> Ball {
         let radius = between(AROUND, stream);
         let far = (REACH - radius) * between([0.82, 1.0], stream);
-        let near = between([-0.1, 0.35], stream);
-        let [x, y] = [libm::cosf(angle), libm::sinf(angle)].map(|c| far * c);
-        Ball::new([x, y, near], radius)
+        let [x, y] = [libm::cosf(TAU * turn), libm::sinf(TAU * turn)].map(|c| far * c);
+        Ball::new([x, y, between([-0.1, 0.35], stream)], radius)
     }
+}
+
+/// A ball with others all around it.
+fn cluster(stream: &mut Stream) -> Vec<Ball> {
+    let mut balls = vec![Ball::new([0.0; 3], between(MIDDLE, stream))];
+    let first = between([0.0, 1.0], stream);
+    for i in 0..COUNT {
+        let turn = (i as f32 + between([-0.35, 0.35], stream)) / COUNT as f32;
+        balls.push(Ball::around(first + turn, stream));
+    }
+    balls
+}
+
+/// Balls side by side on the floor, and others around and above them.
+fn heap(stream: &mut Stream) -> Vec<Ball> {
+    let base = BASE.map(|x| {
+        let near = between([0.0, 0.2], stream);
+        Ball::new([x, FLOOR + BASE_HEIGHT, near], between(BASE_RADII, stream))
+    });
+    let mut balls = Vec::from(base);
+    balls.push(Ball::new(
+        [0.0, FLOOR + HEART_HEIGHT, 0.0],
+        between(MIDDLE, stream),
+    ));
+    for i in 0..UPPER_COUNT {
+        let turn = 0.5 * (i as f32 + between([0.15, 0.85], stream)) / UPPER_COUNT as f32;
+        balls.push(Ball::around(turn, stream));
+    }
+    balls
 }
 
 impl Body for Puff<'_> {
@@ -180,6 +225,9 @@ impl Body for Puff<'_> {
 
     fn shadow(&self, place: [f32; 3]) -> f32 {
         let [depth, _] = self.below(place, SHADOW_KNOBS);
+        if depth <= 0.0 {
+            return 0.0;
+        }
         self.extinction(depth, self.above_floor(place))
     }
 }

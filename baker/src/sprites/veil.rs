@@ -19,8 +19,20 @@ const FOG_EXTINCTION: f32 = 2.0;
 /// Half of the thickness of wisps.
 const WISP_DEPTH: f32 = 0.4;
 
-/// Size of a cell of the noise that curls wisps.
+/// Size of a cell of the noise that curls wisps, and where it is read for the two directions, in cells.
 const CURL_CELL: f32 = 0.55;
+const CURL_APART: [f32; 2] = [1.0, 4.5];
+
+/// How much denser wisps are in patches, and how much thinner everywhere and at their ends; a fibre has the density 1.
+const PATCHES: f32 = 0.5;
+const THIN: f32 = 0.18;
+const ENDS: f32 = 0.9;
+
+/// How fast the density falls off beside a fibre.
+const SHARP: f32 = 1.5;
+
+/// Share of the way in from [`REACH`], as a square, over which wisps fade out.
+const FADE: f32 = 0.35;
 
 /// Size of a cell of their fibres: along, across, and towards the viewer.
 const FIBRE_CELL: [f32; 3] = [0.7, 0.2, 0.5];
@@ -88,8 +100,8 @@ pub(super) struct Wisp<'a> {
     along: [f32; 2],
     /// How far they are curled.
     curl: f32,
-    /// Their extent along and across, as shares of [`REACH`].
-    extent: [f32; 2],
+    /// How far from the middle they end, along and across.
+    extent: [f32; 3],
     gain: f32,
 }
 
@@ -102,7 +114,7 @@ impl<'a> Wisp<'a> {
             origin,
             along: [libm::cosf(angle), libm::sinf(angle)],
             curl: between([0.14, 0.30], stream),
-            extent: [1.0, between([0.5, 0.9], stream)],
+            extent: [REACH, REACH * between([0.5, 0.9], stream), 1.0],
             gain: 0.55 * shape.detail,
         }
     }
@@ -116,24 +128,21 @@ impl<'a> Wisp<'a> {
         }
         let [cos, sin] = self.along;
         let turned = [cos * x + sin * y, cos * y - sin * x, z];
-        let there = |cells: [f32; 3], by: f32| {
-            [0, 1, 2].map(|a| turned[a] / cells[a] + self.origin[a] + by)
-        };
         let gradients = &self.volumes.gradients;
-        let curl = [1.0, 4.5].map(|by| gradients.sum(there([CURL_CELL; 3], by), octaves / 2, 0.5));
+        let curl = CURL_APART.map(|apart| {
+            let there = [0, 1, 2].map(|a| turned[a] / CURL_CELL + self.origin[a] + apart);
+            gradients.sum(there, octaves / 2, 0.5)
+        });
         let [u, v] = [0, 1].map(|a| turned[a] + self.curl * curl[a]);
-        let patch = 0.5 * (curl[0] - curl[1]);
-        let [e, f] = self.extent;
-        let patch = patch - 0.18 - 0.9 * square([u / (REACH * e), v / (REACH * f), 0.0]);
+        let far = square([0, 1, 2].map(|a| [u, v, 0.0][a] / self.extent[a]));
+        let patch = PATCHES * (curl[0] - curl[1]) - THIN - ENDS * far;
         if patch <= -1.0 {
+            // Less than any fibre makes up for.
             return 0.0;
         }
-        let fibre = {
-            let there = [0, 1, 2].map(|a| [u, v, z][a] / FIBRE_CELL[a] + self.origin[(a + 1) % 3]);
-            1.0 - 1.5 * gradients.sum(there, octaves, self.gain).abs()
-        };
-        let density = fibre + patch;
-        WISP_EXTINCTION * slab * smoothstep(0.0, 0.35, fade) * density.max(0.0)
+        let there = [0, 1, 2].map(|a| [u, v, z][a] / FIBRE_CELL[a] + self.origin[(a + 1) % 3]);
+        let fibre = 1.0 - SHARP * gradients.sum(there, octaves, self.gain).abs();
+        WISP_EXTINCTION * slab * smoothstep(0.0, FADE, fade) * (patch + fibre).max(0.0)
     }
 }
 

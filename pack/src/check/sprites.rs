@@ -15,6 +15,9 @@ const ALPHA: usize = 1;
 /// Opacity that the densest place of a puff has at least, or the sky shows through a heap of few sprites.
 const LEAST_CORE: f64 = 0.9;
 
+/// Unevenness of a flat bottom: half of what a disc has.
+const MOST_UNEVEN: f64 = 0.02;
+
 pub(super) fn check(report: &mut Report, texture: &Texture) {
     let levels: Vec<Image> = (0..texture.levels.len())
         .map(|level| texture.image(level, 0))
@@ -52,7 +55,7 @@ fn check_kinds(report: &mut Report, cells: &[Cell]) {
     let least = cores.fold(f64::INFINITY, f64::min);
     report.measure(SPRITE_CORE, NAME, least, Bound::AtLeast(LEAST_CORE));
     let uneven = flat().map(Cell::unevenness).fold(0.0, f64::max);
-    report.measure(SPRITE_FLAT, NAME, uneven, Bound::AtMost(0.5));
+    report.measure(SPRITE_FLAT, NAME, uneven, Bound::AtMost(MOST_UNEVEN));
     let fog = of(SheetKind::Foggy)
         .map(Cell::roughness)
         .fold(0.0, f64::max);
@@ -190,34 +193,24 @@ impl Cell<'_> {
         libm::sqrt(sum / weights)
     }
 
-    /// How uneven the lower outline is beside the upper one: the ratio of their median deviations, which the ends hardly
-    /// change. An outline is, column by column, the first row from below or above that is half as opaque as the densest
-    /// texel.
+    /// How uneven the lower outline is: its mean distance from its median, as a share of the sprite's width, without an
+    /// eighth at either end, where puffs are round. The outline is, column by column, the lowest texel that is half as opaque
+    /// as the densest one.
     fn unevenness(&self) -> f64 {
         let half = self.peak() / 2.0;
-        let outlines = (0..self.side).filter_map(|x| {
-            let mut rows = (0..self.side).filter(|&y| self.texel([x, y])[1] >= half);
-            let upper = rows.next()?;
-            Some([upper, rows.next_back().unwrap_or(upper)])
+        let rows = (0..self.side).filter_map(|x| {
+            let is_opaque = |y: &u32| self.texel([x, *y])[1] >= half;
+            (0..self.side).rev().find(is_opaque)
         });
-        let outlines: Vec<[u32; 2]> = outlines.collect();
-        let [upper, lower] = [0, 1].map(|i| deviation(outlines.iter().map(|rows| rows[i])));
-        if lower == 0 {
-            return 0.0;
-        }
-        f64::from(lower) / f64::from(upper)
+        let mut rows: Vec<u32> = rows.collect();
+        let width = rows.len();
+        rows.truncate(width - width / 8);
+        rows.drain(..width / 8);
+        rows.sort_unstable();
+        let Some(&median) = rows.get(rows.len() / 2) else {
+            return f64::NAN;
+        };
+        let away: u32 = rows.iter().map(|row| row.abs_diff(median)).sum();
+        f64::from(away) / rows.len() as f64 / width as f64
     }
-}
-
-/// Median distance from the median.
-fn deviation(values: impl Iterator<Item = u32>) -> u32 {
-    let mut values: Vec<u32> = values.collect();
-    let middle = median(&mut values);
-    values.iter_mut().for_each(|v| *v = v.abs_diff(middle));
-    median(&mut values)
-}
-
-fn median(values: &mut [u32]) -> u32 {
-    values.sort_unstable();
-    values.get(values.len() / 2).copied().unwrap_or(0)
 }
