@@ -9,8 +9,8 @@ use welkin_pack::{Field, Format, Image, Pack, PackInfo, Role, Source};
 use crate::clouds::{self, photo};
 use crate::error::BakeError;
 use crate::load::{self, Picture};
-use crate::settings::{FieldSettings, PhotoSettings, Resolved, SkyboxSettings};
-use crate::{fbm, field, flares, galaxy, layers, octaves, sky, skybox, stars, sun};
+use crate::settings::{FieldSettings, PhotoSettings, Resolved, SkyboxSettings, SpritesSettings};
+use crate::{fbm, field, flares, galaxy, layers, octaves, sky, skybox, sprites, stars, sun};
 
 /// How far a bake is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,9 +27,9 @@ pub struct Progress {
 type OnProgress<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
 
 /// The steps that [`sources`] takes, in order; the last one only if there is a skybox.
-const STEPS: [&str; 13] = [
+const STEPS: [&str; 14] = [
     "photo", "noise", "detail", "gradient", "stars", "galaxy", "sky", "sun", "octaves", "fbm",
-    "flares", "layers", "skybox",
+    "flares", "layers", "sprites", "skybox",
 ];
 
 /// Bakes a pack in memory.
@@ -124,9 +124,24 @@ pub fn cloud_field(
     field::field(settings, &field::read(settings, base)?, seed)
 }
 
+/// The sheet of cloud sprites: grey and opacity, 0..1, as level 0 of the role `sprites` has them.
+///
+/// `base` is the folder that relative paths start from.
+///
+/// # Errors
+/// [`BakeError::Read`], [`BakeError::NoBase`], [`BakeError::Decode`] or [`BakeError::Photo`].
+pub fn sprite_sheet(
+    settings: &SpritesSettings,
+    seed: u64,
+    base: Option<&Path>,
+) -> Result<Image, BakeError> {
+    sprites::image(settings, &sprites::read(settings, base)?, seed)
+}
+
 /// The files that a recipe names.
 struct Files {
     photo: Option<Picture>,
+    sprites: Vec<Picture>,
     skybox: Vec<Picture>,
     models: Vec<Picture>,
 }
@@ -141,6 +156,7 @@ impl Files {
         let models = models.map(|settings| field::read(settings, base));
         Ok(Files {
             photo: photo.transpose()?,
+            sprites: sprites::read(&resolved.sprites, base)?,
             skybox: skybox.transpose()?.unwrap_or_default(),
             models: models.transpose()?.unwrap_or_default(),
         })
@@ -158,7 +174,7 @@ impl Files {
             key: picture.key.clone(),
             blake3: blake3::hash(&picture.bytes).to_hex().to_string(),
         };
-        let pictures = self.photo.iter().chain(&self.skybox);
+        let pictures = self.photo.iter().chain(&self.sprites).chain(&self.skybox);
         pictures.chain(&self.models).map(input).collect()
     }
 }
@@ -198,6 +214,8 @@ fn make(
     let flares = flares::image(&resolved.flares, seed);
     step(STEPS[11], 11)?;
     let layers = layers::images(&resolved.layers, seed);
+    step(STEPS[12], 12)?;
+    let sprites = sprites::image(&resolved.sprites, &files.sprites, seed)?;
     let mut sources = vec![
         source(Role::Clouds, clouds.format, vec![clouds_image]),
         source(Role::Stars, Format::Rgba8Unorm, vec![stars]),
@@ -208,9 +226,10 @@ fn make(
         source(Role::Fbm, Format::Rgba8Unorm, fbm),
         source(Role::Flares, Format::R8Unorm, vec![flares]),
         source(Role::Layers, Format::Rgba8Unorm, layers),
+        source(Role::Sprites, Format::Rg8Unorm, vec![sprites]),
     ];
     if let Some(settings) = &resolved.skybox {
-        let proceed = || step(STEPS[12], 12);
+        let proceed = || step(STEPS[13], 13);
         let faces = skybox::images(settings, &files.skybox, &proceed)?;
         sources.push(source(Role::Skybox, Format::Rgba16Float, faces));
     }

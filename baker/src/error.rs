@@ -45,7 +45,7 @@ pub enum BakeError {
     /// The caller asked to stop. Nothing was written.
     #[error("cancelled; nothing was written")]
     Cancelled,
-    /// A photograph or the picture of a sky could not be read.
+    /// A picture could not be read.
     #[error("{file}: cannot be read: {source}; check `{key}` in the recipe")]
     Read {
         /// The picture.
@@ -63,7 +63,7 @@ pub enum BakeError {
         /// The decoder's reason.
         source: image::ImageError,
     },
-    /// A photograph or the picture of a sky is not fit for use.
+    /// A picture is not fit for use.
     #[error("{file}: {key} is {found}, expected {expected}")]
     Photo {
         /// The picture.

@@ -13,7 +13,7 @@
 //! use std::ops::ControlFlow;
 //! let resolved = welkin_baker::Recipe::default().resolve(Some(7))?;
 //! let images = welkin_baker::sources(&resolved, None, &|_| ControlFlow::Continue(()))?;
-//! assert_eq!(images.len(), 9);
+//! assert_eq!(images.len(), 10);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -35,11 +35,12 @@ mod resolve;
 mod settings;
 mod sky;
 mod skybox;
+mod sprites;
 mod stars;
 mod stream;
 mod sun;
 
-pub use bake::{Progress, bake, cloud_field, photo_channel, skybox_faces, sources};
+pub use bake::{Progress, bake, cloud_field, photo_channel, skybox_faces, sources, sprite_sheet};
 pub use error::{BakeError, RecipeError};
 pub use load::read_photo;
 pub use recipe::{DEFAULT_RECIPE, Recipe};
@@ -47,5 +48,6 @@ pub use settings::{
     BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound, FieldSettings,
     FlareSettings, FractalSettings, GalaxySettings, GradientSettings, LayerSettings,
     LayersSettings, ModelSettings, ModelSource, PhotoSettings, Resolved, SkySettings,
-    SkyboxPicture, SkyboxSettings, StarSettings, SunSettings,
+    SkyboxPicture, SkyboxSettings, SpriteShape, SpriteSource, SpritesSettings, StarSettings,
+    SunSettings,
 };

@@ -44,6 +44,7 @@ pub(crate) struct Tables {
     pub fbm: Fbm,
     pub flares: Flares,
     pub layers: Layers,
+    pub sprites: Sprites,
     pub skybox: Option<Spanned<Skybox>>,
     pub field: Option<Spanned<FieldTable>>,
 }
@@ -144,6 +145,17 @@ pub(crate) struct Layer {
     pub octaves: Entry,
     pub gain: Entry,
     pub relief: Entry,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Sprites {
+    pub size: Entry,
+    pub file: Entry,
+    pub pictures: Option<Spanned<Vec<Spanned<Value>>>>,
+    pub contrast: Entry,
+    pub detail: Entry,
+    pub softness: Entry,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]

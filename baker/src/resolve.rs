@@ -3,6 +3,7 @@
 mod field;
 mod layers;
 mod skybox;
+mod sprites;
 
 use std::f32::consts::PI;
 use std::ops::Range;
@@ -53,6 +54,7 @@ impl Recipe {
                 size: self.size("flares.size", &t.flares.size, 256, 64, 1024)?,
             },
             layers: self.layers()?,
+            sprites: self.sprites()?,
             skybox: self.skybox()?,
             field: self.field()?,
         })

@@ -33,6 +33,8 @@ pub struct Resolved {
     pub flares: FlareSettings,
     /// Layers of clouds.
     pub layers: LayersSettings,
+    /// The sheet of cloud sprites.
+    pub sprites: SpritesSettings,
     /// The skybox, if the recipe names a picture.
     pub skybox: Option<SkyboxSettings>,
     /// The clouds in space, unless the recipe leaves them out.
@@ -171,6 +173,37 @@ pub struct LayerSettings {
     pub gain: f32,
     /// Root mean square slope of the cloud's surface.
     pub relief: f32,
+}
+
+/// The sheet of cloud sprites.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpritesSettings {
+    /// Texels a side of the sheet, a power of two.
+    pub size: u32,
+    /// Factor on the relief of the grey.
+    pub contrast: f32,
+    /// What it is made from.
+    pub source: SpriteSource,
+}
+
+/// What the sheet of sprites is made from. Pictures have an alpha channel: PNG or OpenEXR files.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SpriteSource {
+    /// Clouds of noise.
+    Noise(SpriteShape),
+    /// A square picture of all cells.
+    Sheet(String),
+    /// A square picture a cell, in the order of [`welkin_pack::SheetCell`].
+    Cells(Box<[String; 16]>),
+}
+
+/// How clouds of noise look.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpriteShape {
+    /// Factor on what is fine: knobs and fibres.
+    pub detail: f32,
+    /// Factor on the width of a puff's edge.
+    pub softness: f32,
 }
 
 /// The skybox.

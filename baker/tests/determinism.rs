@@ -46,6 +46,8 @@ fn another_seed_changes_every_random_channel_and_no_other() {
         (Role::Fbm, 3),
         (Role::Flares, 0),
         (Role::Layers, 2),
+        (Role::Sprites, 0),
+        (Role::Sprites, 1),
     ] {
         assert!(
             channel(&one, role, c) != channel(&two, role, c),
@@ -86,6 +88,7 @@ fn settings_of_one_channel_leave_the_others_alone() {
         Role::Fbm,
         Role::Flares,
         Role::Layers,
+        Role::Sprites,
     ] {
         assert!(image(&plain, role) == image(&noise, role), "{role:?}");
     }

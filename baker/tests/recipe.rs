@@ -270,6 +270,30 @@ fn values_of_the_wrong_type_or_out_of_range_are_told_with_key_and_place() {
             "a number from 0.1 to 2",
         ),
         (
+            "sprites.size = 64",
+            "sprites.size",
+            "64",
+            "power of two from 128 to 2048",
+        ),
+        (
+            "sprites.contrast = 2.5",
+            "sprites.contrast",
+            "2.5",
+            "a number from 0 to 2",
+        ),
+        (
+            "sprites.detail = -1",
+            "sprites.detail",
+            "-1",
+            "a number from 0 to 1.5",
+        ),
+        (
+            "sprites.softness = 0",
+            "sprites.softness",
+            "0",
+            "a number from 0.5 to 3",
+        ),
+        (
             "layers.stratocumulus.relief = nan",
             "layers.stratocumulus.relief",
             "nan",

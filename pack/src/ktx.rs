@@ -121,9 +121,9 @@ fn describe(file: &str, header: &Header) -> Result<Texture, PackError> {
             return bad("faceCount", found, "1, or 6 square ones with layerCount 0");
         }
     };
-    let full = Texture::full_level_count(width, height) as u32;
-    if header.level_count != 1 && header.level_count != full {
-        let expected = format!("1, or {full} for {width}x{height}");
+    let all = Texture::full_level_count(width, height) as u32;
+    if !(1..=all).contains(&header.level_count) {
+        let expected = format!("1 to {all} for {width}x{height}");
         return bad("levelCount", header.level_count.to_string(), &expected);
     }
     if !matches!(

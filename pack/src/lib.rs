@@ -46,6 +46,6 @@ pub use pack::{Overwrite, PackInfo, Source};
 pub use role::Role;
 pub use texel::{
     CloudTexel, FbmTexel, FlareTexel, GalaxyTexel, LayerTexel, OctaveTexel, SkyTexel, SkyboxTexel,
-    StarTexel, SunTexel,
+    SpriteTexel, StarTexel, SunTexel,
 };
 pub use texture::Texture;

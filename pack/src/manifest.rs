@@ -217,6 +217,10 @@ impl TextureEntry {
         }
         let size = [self.width, self.height, self.layers];
         spec.verify_size(file, &format!("textures[{index}]."), size)?;
+        let levels = spec.mips.count(self.width, self.height);
+        if self.levels as usize != levels {
+            return bad("levels", self.levels.to_string(), levels.to_string());
+        }
         let channels: Vec<&str> = self.channels.iter().map(|c| c.name.as_str()).collect();
         let expected: Vec<&str> = spec.channels.iter().map(|c| c.name).collect();
         if channels != expected {

@@ -2,15 +2,15 @@
 //!
 //! Every level is filtered from the linear image above it and quantised once, so that errors do not add
 //! up. Amounts are averaged over 2x2 texels. The sunset gradient keeps its first and last row. Stars keep
-//! their light: see [`stars`]. Normals keep their length: see `layers.rs`.
+//! their light: see [`stars`]. Normals keep their length: see `layers.rs`. Sprites keep apart: see `sprites.rs`.
 
 mod layers;
+mod sprites;
 
 use crate::texture::encode;
-use crate::{Format, Image, Role, Texture};
+use crate::{Format, Image, Role};
 
-/// All levels of the images, encoded, with the images of a level one after another: the full chain where the
-/// role asks for it, else level 0 alone.
+/// All levels of the images that the role asks for, encoded, with the images of a level one after another.
 pub(crate) fn levels(role: Role, format: Format, images: Vec<Image>) -> Vec<Vec<u8>> {
     let mut joined: Vec<Vec<u8>> = Vec::new();
     for image in images {
@@ -25,10 +25,7 @@ pub(crate) fn levels(role: Role, format: Format, images: Vec<Image>) -> Vec<Vec<
 }
 
 fn levels_of(role: Role, format: Format, image: Image) -> Vec<Vec<u8>> {
-    if !role.spec().mips {
-        return vec![encode(format, &image.texels)];
-    }
-    let count = Texture::full_level_count(image.width, image.height);
+    let count = role.spec().mips.count(image.width, image.height);
     let mut level = image;
     let base_gradient = (role == Role::Clouds).then(|| column(&level, GRADIENT));
     let mut levels = Vec::with_capacity(count);
@@ -37,6 +34,7 @@ fn levels_of(role: Role, format: Format, image: Image) -> Vec<Vec<u8>> {
             level = match role {
                 Role::Stars => stars(&level),
                 Role::Layers => layers::halve(&level),
+                Role::Sprites => sprites::halve(&level),
                 _ => halve(&level),
             };
         }

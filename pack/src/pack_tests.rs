@@ -59,6 +59,7 @@ fn a_saved_pack_opens_as_it_was() {
             "pack.json",
             "sky.ktx2",
             "skybox.ktx2",
+            "sprites.ktx2",
             "stars.ktx2",
             "sun.ktx2"
         ]

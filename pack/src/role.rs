@@ -5,7 +5,7 @@ mod specs;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Format, LayerKind, PackError, Shape};
+use crate::{Format, LayerKind, PackError, Shape, Texture};
 
 /// What a texture is for.
 #[derive(
@@ -31,6 +31,8 @@ pub enum Role {
     Flares,
     /// Layers of clouds of Mukhina and Bezgodov: normal, density and rank.
     Layers,
+    /// Pictures of parts of clouds, for N. Wang's sprites.
+    Sprites,
     /// A picture of a sky around the viewer.
     Skybox,
 }
@@ -53,6 +55,29 @@ pub enum Filter {
     Linear,
     /// Texels are read one by one: they are records, not colours.
     Nearest,
+}
+
+/// How many levels a texture has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Mips {
+    /// Level 0 alone.
+    One,
+    /// All, to 1x1.
+    All,
+    /// Down to this width.
+    To(u32),
+}
+
+impl Mips {
+    /// Levels of a texture of this size.
+    pub fn count(self, width: u32, height: u32) -> usize {
+        let all = Texture::full_level_count(width, height);
+        match self {
+            Mips::One => 1,
+            Mips::All => all,
+            Mips::To(least) => all.saturating_sub(least.ilog2() as usize).max(1),
+        }
+    }
 }
 
 /// What one channel of a role means.
@@ -81,8 +106,8 @@ pub struct RoleSpec {
     pub sides: [u32; 2],
     /// Least and greatest number of images a level.
     pub layers: [u32; 2],
-    /// Whether it has a full chain of levels, or one alone.
-    pub mips: bool,
+    /// Its levels.
+    pub mips: Mips,
     /// Addressing.
     pub wrap: Wrap,
     /// Filtering.
@@ -93,7 +118,7 @@ pub struct RoleSpec {
 
 impl Role {
     /// Every role, in the order in which a manifest lists them.
-    pub const ALL: [Role; 10] = [
+    pub const ALL: [Role; 11] = [
         Role::Clouds,
         Role::Stars,
         Role::Galaxy,
@@ -103,6 +128,7 @@ impl Role {
         Role::Fbm,
         Role::Flares,
         Role::Layers,
+        Role::Sprites,
         Role::Skybox,
     ];
 
@@ -118,6 +144,7 @@ impl Role {
             Role::Fbm => "fbm",
             Role::Flares => "flares",
             Role::Layers => "layers",
+            Role::Sprites => "sprites",
             Role::Skybox => "skybox",
         }
     }
@@ -134,6 +161,7 @@ impl Role {
             Role::Fbm => &specs::FBM,
             Role::Flares => &specs::FLARES,
             Role::Layers => &specs::LAYERS,
+            Role::Sprites => &specs::SPRITES,
             Role::Skybox => &specs::SKYBOX,
         }
     }
@@ -198,5 +226,24 @@ impl RoleSpec {
             return bad("layers", layers, expected);
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_are_as_many_as_said() {
+        let counts =
+            |mips: Mips| [(512, 512), (128, 64), (16, 16), (1, 1)].map(|(w, h)| mips.count(w, h));
+        assert_eq!(counts(Mips::One), [1; 4]);
+        assert_eq!(counts(Mips::All), [10, 8, 5, 1]);
+        assert_eq!(counts(Mips::To(32)), [5, 3, 1, 1]);
+        let sprites = Role::Sprites.spec();
+        assert_eq!(
+            sprites.sides.map(|side| sprites.mips.count(side, side)),
+            [3, 7]
+        );
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::mapping::{FBM_STEPS_A_TILE, cube_to_direction, galaxy_uv_to_direction};
 use crate::test_field::field;
-use crate::{Format, Image, Pack, PackInfo, Role, Source, StarTexel};
+use crate::{Format, Image, Pack, PackInfo, Role, SheetCell, SheetKind, Source, StarTexel};
 
 /// A stream of numbers in 0..1: a 64-bit linear congruential generator (D. E. Knuth, MMIX), upper bits.
 pub(crate) struct Stream(u64);
@@ -52,6 +52,7 @@ pub(crate) fn sources() -> Vec<Source> {
         source(Role::Fbm, fbm()),
         source(Role::Flares, vec![flares(64)]),
         source(Role::Layers, layers()),
+        source(Role::Sprites, vec![sprites(128)]),
         source(Role::Skybox, (0..6).map(|face| skybox(face, 16)).collect()),
     ]
 }
@@ -269,6 +270,34 @@ pub(crate) fn layer(density: &[f32]) -> Image {
         let [x, y] = [x, y].map(|n| 0.5 + 0.5 * n / libm::sqrtf(1.0 + x * x + y * y));
         let rank = (256 * rank / density.len()) as f32 / 255.0;
         image.texels[4 * i..][..4].copy_from_slice(&[x, y, density[i], rank]);
+    }
+    image
+}
+
+/// Discs of the kinds' opacities, with waves for eddies; the flat-bottomed one is half a disc.
+fn sprites(size: u32) -> Image {
+    let mut image = Image::new(size, size, 2);
+    let side = size / SheetCell::A_SIDE;
+    for cell in (0..SheetCell::COUNT).map(SheetCell) {
+        let (peak, eddies) = match cell.kind() {
+            SheetKind::Foggy => (0.7, 0.02),
+            SheetKind::Wispy => (0.6, 0.1),
+            SheetKind::FlatBottomed | SheetKind::Puffy => (1.0, 0.2),
+        };
+        let [left, top] = cell.place().map(|i| i * side);
+        for (x, y) in (0..side * side).map(|i| (i % side, i / side)) {
+            let [u, v] = [x, y].map(|i| (i as f32 + 0.5) / side as f32 * 2.0 - 1.0);
+            let radius = libm::sqrtf(u * u + v * v);
+            let is_cut = cell.kind() == SheetKind::FlatBottomed && v > 0.2;
+            let alpha = if is_cut {
+                0.0
+            } else {
+                peak * ((0.8 - radius) / 0.4).clamp(0.0, 1.0)
+            };
+            let wave = libm::sinf(9.0 * u) * libm::sinf(9.0 * v + f32::from(cell.0));
+            let texel = image.texel_mut(left + x, top + y);
+            texel.copy_from_slice(&[0.5 + eddies * wave, alpha]);
+        }
     }
     image
 }

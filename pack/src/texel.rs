@@ -4,8 +4,10 @@
 //! physical units are in [`crate::role`] and in every manifest.
 
 mod layers;
+mod sprites;
 
 pub use layers::LayerTexel;
+pub use sprites::SpriteTexel;
 
 use crate::Format;
 use crate::texture::{encode, unorm8};
@@ -285,6 +287,7 @@ mod tests {
             prop_assert_eq!(FbmTexel::decode(bytes).encode(), bytes);
             prop_assert_eq!(FlareTexel::decode([a]).encode(), [a]);
             prop_assert_eq!(LayerTexel::decode(bytes).encode(), bytes);
+            prop_assert_eq!(SpriteTexel::decode([a, b]).encode(), [a, b]);
         }
 
         #[test]

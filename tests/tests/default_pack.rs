@@ -19,6 +19,9 @@ const MOST_BYTES_MORE: usize = 4 * 256 * 256 * 4 / 2 + 60_000;
 /// of a rank comes equally often and the others are hardly more predictable.
 const MOST_BYTES_LAYERS: usize = 3 * 256 * 256 * 4 * 4 / 3;
 
+/// What the sheet of sprites may take: half of the bytes of its levels, since most of a cell is transparent.
+const MOST_BYTES_SPRITES: usize = 512 * 512 * 2 * 4 / 3 / 2;
+
 fn assert_sound(pack: &Pack) {
     let place = tempfile::tempdir().unwrap();
     let folder = place.path().join("pack");
@@ -32,11 +35,17 @@ fn assert_sound(pack: &Pack) {
 fn it_is_sound_and_small() {
     let pack = default_pack();
     assert_sound(pack);
-    let layers = pack.manifest().texture(Role::Layers).unwrap().file_bytes as usize;
-    assert!(layers < MOST_BYTES_LAYERS, "{layers} bytes");
+    for (role, most) in [
+        (Role::Layers, MOST_BYTES_LAYERS),
+        (Role::Sprites, MOST_BYTES_SPRITES),
+    ] {
+        let bytes = pack.manifest().texture(role).unwrap().file_bytes as usize;
+        assert!(bytes < most, "{role:?}: {bytes} bytes");
+    }
     let more = [Role::Octaves, Role::Fbm, Role::Flares].map(Role::file);
     let files = pack.files().iter();
-    let files = files.filter(|(name, _)| *name != Role::Layers.file());
+    let told = [Role::Layers, Role::Sprites].map(Role::file);
+    let files = files.filter(|(name, _)| !told.contains(name));
     let (more, packed): (Vec<_>, Vec<_>) = files.partition(|(n, _)| more.contains(n));
     let bytes = |files: &[&(String, Vec<u8>)]| files.iter().map(|(_, b)| b.len()).sum::<usize>();
     let (more, packed) = (bytes(&more), bytes(&packed));
@@ -57,6 +66,9 @@ fn it_is_sound_with_other_seeds_sizes_and_half_floats() {
         "[clouds]\nsize = 256\n[fbm]\ncells = 128\noctaves = 1",
         "seed = 3\n[clouds]\nsize = 256\n[layers]\nsize = 64",
         "seed = 4\n[clouds]\nsize = 256\n[layers]\nsize = 512\n[layers.cirrus]\nrelief = 2\n[layers.cumulus]\nrelief = 0.1",
+        "seed = 6\n[clouds]\nsize = 256\n[sprites]\nsize = 128\nsoftness = 3",
+        "seed = 7\n[clouds]\nsize = 256\n[sprites]\nsize = 1024\ndetail = 1.5\nsoftness = 0.5\ncontrast = 2",
+        "seed = 8\n[clouds]\nsize = 256\n[sprites]\nsize = 256\ndetail = 0",
         "seed = 5\n[clouds]\nsize = 256\n[layers.stratocumulus]\ncells = 32\n[layers.cirrus]\ncells = 10\noctaves = 8\ngain = 1",
     ] {
         let resolved = Recipe::parse("r.toml", text)

@@ -120,7 +120,10 @@ fn side_files_hold_every_channel_as_stored_and_as_made() {
     };
     assert_eq!(stems(&png), stems(&exr));
     // Two layers of the smooth noise: the small recipe's lattice has no room for more.
-    assert_eq!(stems(&png).len(), 4 + 4 + 1 + 4 + 2 + 4 + 2 * 4 + 1 + 3 * 4);
+    assert_eq!(
+        stems(&png).len(),
+        4 + 4 + 1 + 4 + 2 + 4 + 2 * 4 + 1 + 3 * 4 + 2
+    );
 
     let pack = welkin_pack::Pack::open(&pack).unwrap();
     let stored = &pack.texture(welkin_pack::Role::Clouds).unwrap().levels[0];

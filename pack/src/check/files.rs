@@ -83,10 +83,7 @@ fn check_entry(report: &mut Report, folder: &Path, entry: &TextureEntry) -> Opti
         );
         return None;
     };
-    let layout = entry
-        .verify_layout(&file, &texture)
-        .and_then(|()| verify_role(&file, entry.role, &texture));
-    let layout = report.verify(LAYOUT, name, layout);
+    let layout = report.verify(LAYOUT, name, entry.verify_layout(&file, &texture));
     report.verify(TEXEL_HASH, name, entry.verify_texels(&file, &texture));
     if layout.is_none() {
         skip(
@@ -105,24 +102,6 @@ fn skip(report: &mut Report, entry: &TextureEntry, rules: &[super::Rule], why: &
     for rule in rules {
         report.skip(*rule, entry.role.name(), why);
     }
-}
-
-/// What the role asks beyond what the manifest says: all levels or one.
-fn verify_role(file: &str, role: Role, texture: &Texture) -> Result<(), PackError> {
-    let levels = if role.spec().mips {
-        Texture::full_level_count(texture.width, texture.height)
-    } else {
-        1
-    };
-    if texture.levels.len() != levels {
-        return Err(PackError::value(
-            file,
-            "levels",
-            texture.levels.len(),
-            levels,
-        ));
-    }
-    Ok(())
 }
 
 /// The manifest's figures were computed from the same bytes in the same order: only their decimal

@@ -5,10 +5,10 @@ use super::rule::MIP_MEAN;
 use super::subject;
 use crate::{Format, Image, Role, Texture};
 
-/// Checks every channel that is averaged over area. Star levels, the sunset gradient and normals have rules of
-/// their own.
+/// Checks every channel that is averaged over area. Levels of stars and sprites, the sunset gradient and normals have
+/// rules of their own.
 pub(super) fn check(report: &mut Report, role: Role, texture: &Texture) {
-    if texture.levels.len() == 1 || role == Role::Stars {
+    if texture.levels.len() == 1 || matches!(role, Role::Stars | Role::Sprites) {
         return;
     }
     let layers: Vec<Vec<_>> = (0..texture.layers)

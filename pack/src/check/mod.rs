@@ -19,6 +19,7 @@ mod rule;
 mod sky;
 mod skybox;
 mod spectrum;
+mod sprites;
 mod stars;
 mod sun;
 #[cfg(test)]
@@ -64,6 +65,7 @@ fn check_texture(report: &mut Report, role: Role, texture: &Texture) {
         Role::Fbm => fbm::check(report, texture),
         Role::Flares => flares::check(report, texture),
         Role::Layers => layers::check(report, texture),
+        Role::Sprites => sprites::check(report, texture),
         Role::Skybox => skybox::check(report, texture),
     }
 }

@@ -88,6 +88,13 @@ rules! {
     NORMAL_SLOPE = error("normal-slope", "The normals of the layers are those of a surface as high as their density.");
     RANK_FLAT = error("rank-flat", "Every rank is equally often in a layer.");
     RANK_ORDER = error("rank-order", "The rank never falls as the density rises.");
+    SPRITE_BORDER = error("sprite-border", "No cell of the sprites is opaque along its border, on any level.");
+    SPRITE_LEVEL = error("sprite-level", "Every level of the sprites is the mean of the texels above, cell by cell.");
+    SPRITE_CELLS = error("sprite-cells", "Every cell of the sprites shows something, and none is full.");
+    SPRITE_GREY = warning("sprite-grey", "The grey of every sprite has the mean 0.5.");
+    SPRITE_CORE = warning("sprite-core", "Puffs of the sprites have a solid core.");
+    SPRITE_FLAT = warning("sprite-flat", "The flat-bottomed sprite has a flat bottom.");
+    SPRITE_FOG = warning("sprite-fog", "Foggy sprites are smoother than puffs.");
     SKYBOX_RANGE = error("skybox-range", "Radiance is finite and not negative, and the cover between 0 and 1.");
     SKYBOX_SEAM = warning("skybox-seam", "Across the 12 edges of the cube the picture changes no more than beside them.");
     FIELD_FILE = error("field-file", "The field of clouds is a glTF file as the format describes it, with the counts of the manifest.");

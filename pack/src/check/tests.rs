@@ -4,6 +4,7 @@ mod field;
 mod layers;
 mod methods;
 mod skybox;
+mod sprites;
 mod stars;
 
 use std::fs;
@@ -71,6 +72,7 @@ fn every_rule_has_a_test_here_and_a_place_in_the_documentation() {
         include_str!("tests/layers.rs"),
         include_str!("tests/methods.rs"),
         include_str!("tests/skybox.rs"),
+        include_str!("tests/sprites.rs"),
         include_str!("tests/stars.rs"),
     );
     let tests: String = tests.split_whitespace().collect();
@@ -155,17 +157,23 @@ fn wrong_statistics_are_an_error() {
 #[test]
 fn a_wrong_size_is_a_wrong_layout() {
     let report = check_with_manifest(true, |m| {
-        (m.textures[2].width, m.textures[2].height) = (64, 64);
+        let galaxy = &mut m.textures[2];
+        (galaxy.width, galaxy.height, galaxy.levels) = (64, 64, 7);
     });
     assert_eq!(errors(&report), ["layout"]);
 }
 
 #[test]
-fn missing_levels_are_a_wrong_layout() {
-    assert_only(
-        "layout",
-        &with_texture(Role::Galaxy, |t| t.levels.truncate(1)),
-    );
+fn missing_levels_are_a_wrong_entry() {
+    for (role, levels) in [(Role::Galaxy, 1), (Role::Clouds, 6), (Role::Sprites, 1)] {
+        let fewer = with_texture(role, |t| t.levels.truncate(levels));
+        assert_only("manifest", &fewer);
+    }
+    let more = with_texture(Role::Sprites, |t| {
+        let bytes = t.level_bytes(3);
+        t.levels.push(vec![0; bytes]);
+    });
+    assert_only("manifest", &more);
 }
 
 #[test]

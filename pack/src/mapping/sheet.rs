@@ -15,6 +15,17 @@ pub enum SheetKind {
     Puffy,
 }
 
+impl SheetKind {
+    /// Colour of its pictures, which are grey in the texture: factors in linear BT.709 that keep the luminance. The
+    /// article's fog has "a subtle bluish-gray tinge".
+    pub const fn tint(self) -> [f32; 3] {
+        match self {
+            SheetKind::Foggy => [0.94, 1.005_721_5, 1.12],
+            SheetKind::FlatBottomed | SheetKind::Wispy | SheetKind::Puffy => [1.0; 3],
+        }
+    }
+}
+
 /// A cell of the role `sprites`: 4x4 of them, row by row from the top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SheetCell(pub u8);
@@ -25,6 +36,9 @@ impl SheetCell {
 
     /// Cells in all.
     pub const COUNT: u8 = 16;
+
+    /// Least and greatest mean opacity of a cell: less shows nothing, and a disc as wide as the cell has no more.
+    pub const OPACITY: [f32; 2] = [0.02, std::f32::consts::FRAC_PI_4];
 
     /// The cells of each kind: fog in the upper row, the flat bottom in its right corner, puffs in the two lowest rows, as in
     /// the article, and wisps in what is left.
@@ -55,6 +69,16 @@ impl SheetCell {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tints_keep_the_luminance_and_only_fog_is_bluish() {
+        for cell in (0..SheetCell::COUNT).map(SheetCell) {
+            let [r, g, b] = cell.kind().tint();
+            // ITU-R BT.709-6, item 3.2.
+            assert!((0.2126 * r + 0.7152 * g + 0.0722 * b - 1.0).abs() < 1e-6);
+            assert_eq!(b > g && g > r, cell.kind() == SheetKind::Foggy);
+        }
+    }
 
     #[test]
     fn every_cell_is_of_one_kind() {

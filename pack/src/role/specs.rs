@@ -1,6 +1,6 @@
 //! What each role asks of its texture, as data.
 
-use super::{ChannelSpec, Filter, RoleSpec, Wrap};
+use super::{ChannelSpec, Filter, Mips, RoleSpec, Wrap};
 use crate::limits::MAX_SIDE;
 use crate::texel::StarTexel;
 use crate::{Format, Shape};
@@ -28,7 +28,7 @@ pub(super) const CLOUDS: RoleSpec = RoleSpec {
     size: [512, 512],
     sides: ANY_SIDE,
     layers: [1, 1],
-    mips: true,
+    mips: Mips::All,
     wrap: Wrap::Repeat,
     filter: Filter::Linear,
     channels: &[
@@ -50,7 +50,7 @@ pub(super) const STARS: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: ANY_SIDE,
     layers: [1, 1],
-    mips: true,
+    mips: Mips::All,
     wrap: Wrap::Repeat,
     filter: Filter::Nearest,
     channels: &[
@@ -77,7 +77,7 @@ pub(super) const GALAXY: RoleSpec = RoleSpec {
     size: [128, 128],
     sides: ANY_SIDE,
     layers: [1, 1],
-    mips: true,
+    mips: Mips::All,
     wrap: Wrap::Clamp,
     filter: Filter::Linear,
     channels: &[channel("brightness", "brightness of the galaxy", "1", 1.0)],
@@ -89,7 +89,7 @@ pub(super) const SKY: RoleSpec = RoleSpec {
     size: [128, 64],
     sides: ANY_SIDE,
     layers: [1, 1],
-    mips: false,
+    mips: Mips::One,
     wrap: Wrap::Repeat,
     filter: Filter::Linear,
     channels: &[
@@ -126,7 +126,7 @@ pub(super) const SUN: RoleSpec = RoleSpec {
     size: [128, 128],
     sides: ANY_SIDE,
     layers: [1, 1],
-    mips: true,
+    mips: Mips::All,
     wrap: Wrap::Clamp,
     filter: Filter::Linear,
     channels: &[
@@ -146,7 +146,7 @@ pub(super) const OCTAVES: RoleSpec = RoleSpec {
     size: [32, 32],
     sides: [32, 32],
     layers: [1, 1],
-    mips: false,
+    mips: Mips::One,
     wrap: Wrap::Repeat,
     filter: Filter::Nearest,
     channels: &[
@@ -178,7 +178,7 @@ pub(super) const FBM: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: [64, 1024],
     layers: [1, 8],
-    mips: false,
+    mips: Mips::One,
     wrap: Wrap::Repeat,
     filter: Filter::Linear,
     channels: &[
@@ -205,7 +205,7 @@ pub(super) const FLARES: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: [64, 1024],
     layers: [1, 1],
-    mips: true,
+    mips: Mips::All,
     wrap: Wrap::Clamp,
     filter: Filter::Linear,
     channels: &[channel(
@@ -222,7 +222,7 @@ pub(super) const LAYERS: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: [64, 1024],
     layers: [3, 3],
-    mips: true,
+    mips: Mips::All,
     wrap: Wrap::Repeat,
     filter: Filter::Linear,
     channels: &[
@@ -248,13 +248,39 @@ pub(super) const LAYERS: RoleSpec = RoleSpec {
     ],
 };
 
+pub(super) const SPRITES: RoleSpec = RoleSpec {
+    formats: &[Format::Rg8Unorm],
+    shape: Shape::D2,
+    size: [512, 512],
+    sides: [128, 2048],
+    layers: [1, 1],
+    // Cells of 8 texels: smaller ones would be border and little else.
+    mips: Mips::To(32),
+    wrap: Wrap::Clamp,
+    filter: Filter::Linear,
+    channels: &[
+        channel(
+            "grey",
+            "shade of the cloud, 0.5 the mean over a sprite; it goes on where the sprite has ended",
+            "1",
+            1.0,
+        ),
+        channel(
+            "alpha",
+            "opacity, 0 along the border of every cell",
+            "1",
+            1.0,
+        ),
+    ],
+};
+
 pub(super) const SKYBOX: RoleSpec = RoleSpec {
     formats: &[Format::Rgba16Float],
     shape: Shape::Cube,
     size: [256, 256],
     sides: [16, 2048],
     layers: [6, 6],
-    mips: true,
+    mips: Mips::All,
     wrap: Wrap::Clamp,
     filter: Filter::Linear,
     channels: &[

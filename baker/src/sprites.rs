@@ -1,0 +1,130 @@
+//! The sheet of cloud sprites: fog, wisps, puffs, and one puff with a flat bottom.
+//!
+//! # Theory
+//! N. Wang, "Let There Be Clouds! Fast, Realistic Cloud-Rendering in Microsoft Flight Simulator 2004: A Century of
+//! Flight", Game Developer, 2004, figure 3: clouds are dozens of sprites over each other, so what looks like a cloud is in
+//! the pictures, "interesting features inside the textures that resemble eddies and wisps".
+//!
+//! # Changes versus the paper
+//! - The pictures are not painted: each is a small cloud of noise, and a ray through every texel tells its opacity and the
+//!   light that it scatters (`march.rs`).
+//! - Grey and opacity alone: the bluish grey of fog is a constant, [`SheetKind::tint`].
+//! - A recipe may name pictures instead (`pictures.rs`).
+//!
+//! The noise repeats in small volumes that all share; each cell has a random stream of its own, such as `sprites.12`, for
+//! its shape and its place in them.
+
+mod march;
+mod pictures;
+mod puff;
+mod shade;
+mod veil;
+mod volume;
+
+use welkin_pack::{Image, SheetCell, SheetKind};
+
+use crate::error::BakeError;
+use crate::load::Picture;
+use crate::settings::{SpriteShape, SpriteSource, SpritesSettings};
+use crate::stream::Stream;
+use march::picture;
+pub(crate) use pictures::read;
+use puff::Puff;
+use veil::{Fog, Wisp};
+use volume::Volume;
+
+/// Nothing of a sprite lies farther from the middle of its cell, whose half side is 1.
+const REACH: f32 = 0.84;
+
+/// Standard deviation of the grey. Fog has hardly any relief, or a layer of it would look like a heap.
+const RELIEF_FOG: f32 = 0.025;
+const RELIEF_WISP: f32 = 0.07;
+const RELIEF_PUFF: f32 = 0.13;
+
+/// The sheet: grey and opacity.
+pub(crate) fn image(
+    settings: &SpritesSettings,
+    pictures: &[Picture],
+    seed: u64,
+) -> Result<Image, BakeError> {
+    let side = settings.size / SheetCell::A_SIDE;
+    let cells = match &settings.source {
+        SpriteSource::Noise(shape) => noise(shape, settings.contrast, side, seed),
+        SpriteSource::Sheet(_) | SpriteSource::Cells(_) => {
+            let cells = pictures::cells(pictures, side)?.into_iter();
+            cells
+                .map(|cell| shade::relative(&cell, settings.contrast))
+                .collect()
+        }
+    };
+    Ok(sheet(&cells))
+}
+
+/// A picture of noise a cell.
+fn noise(shape: &SpriteShape, contrast: f32, side: u32, seed: u64) -> Vec<Image> {
+    let gradients = Volume::gradients(&mut Stream::new(seed, "sprites.gradients"));
+    let lumps = Volume::lumps(&gradients, &mut Stream::new(seed, "sprites.lumps"));
+    let volumes = Volumes { gradients, lumps };
+    let cells = (0..SheetCell::COUNT).map(|index| {
+        let mut stream = Stream::new(seed, &format!("sprites.{index}"));
+        let (picture, relief) = cell(&volumes, shape, SheetCell(index), side, &mut stream);
+        shade::standardised(&picture, contrast * relief)
+    });
+    cells.collect()
+}
+
+/// The noise that all sprites are cut from.
+struct Volumes {
+    gradients: Volume,
+    lumps: Volume,
+}
+
+/// Light times opacity, and opacity; and the relief that it is to have.
+fn cell(
+    volumes: &Volumes,
+    shape: &SpriteShape,
+    cell: SheetCell,
+    side: u32,
+    stream: &mut Stream,
+) -> (Image, f32) {
+    match cell.kind() {
+        SheetKind::Foggy => (picture(&Fog::new(volumes, shape, stream), side), RELIEF_FOG),
+        SheetKind::Wispy => {
+            let wisp = Wisp::new(volumes, shape, stream);
+            (picture(&wisp, side), RELIEF_WISP)
+        }
+        kind @ (SheetKind::FlatBottomed | SheetKind::Puffy) => {
+            let is_flat = kind == SheetKind::FlatBottomed;
+            let puff = Puff::new(volumes, shape, is_flat, stream);
+            (picture(&puff, side), RELIEF_PUFF)
+        }
+    }
+}
+
+/// The cells on one sheet, the outermost texels of each transparent.
+fn sheet(cells: &[Image]) -> Image {
+    let side = cells[0].width;
+    let size = side * SheetCell::A_SIDE;
+    let mut sheet = Image::new(size, size, 2);
+    for (index, cell) in (0..).zip(cells) {
+        let [left, top] = SheetCell(index).place().map(|i| i * side);
+        for (y, x) in (0..side).flat_map(|y| (0..side).map(move |x| (y, x))) {
+            let texel = sheet.texel_mut(left + x, top + y);
+            texel.copy_from_slice(cell.texel(x, y));
+            if [x, y].iter().any(|i| [0, side - 1].contains(i)) {
+                texel[1] = 0.0;
+            }
+        }
+    }
+    sheet
+}
+
+/// An even random number.
+fn between([least, most]: [f32; 2], stream: &mut Stream) -> f32 {
+    least + (most - least) * stream.unit() as f32
+}
+
+/// A random place in a volume, in cells.
+fn place_of(stream: &mut Stream) -> [f32; 3] {
+    [(); 3].map(|()| between([0.0, 8.0], stream))
+}

@@ -1,0 +1,216 @@
+//! The sheet of cloud sprites.
+
+use super::report::{Bound, Report};
+use super::rule::{
+    SPRITE_BORDER, SPRITE_CELLS, SPRITE_CORE, SPRITE_FLAT, SPRITE_FOG, SPRITE_GREY, SPRITE_LEVEL,
+};
+use super::subject;
+use crate::texture::unorm8;
+use crate::{Image, Role, SheetCell, SheetKind, Texture};
+
+const NAME: &str = Role::Sprites.name();
+const GREY: usize = 0;
+const ALPHA: usize = 1;
+
+/// Opacity that the densest place of a puff has at least, or the sky shows through a heap of few sprites.
+const LEAST_CORE: f64 = 0.9;
+
+/// Unevenness of a flat bottom: half of what a disc has.
+const MOST_UNEVEN: f64 = 0.02;
+
+pub(super) fn check(report: &mut Report, texture: &Texture) {
+    let levels: Vec<Image> = (0..texture.levels.len())
+        .map(|level| texture.image(level, 0))
+        .collect();
+    let borders = levels.iter().map(brightest_border).fold(0.0, f64::max);
+    report.measure(SPRITE_BORDER, NAME, borders, Bound::AtMost(0.0));
+    check_levels(report, &levels);
+    let cells: Vec<Cell> = (0..SheetCell::COUNT)
+        .map(|index| Cell::new(&levels[0], SheetCell(index)))
+        .collect();
+    for (index, cell) in cells.iter().enumerate() {
+        let [least, most] = SheetCell::OPACITY.map(f64::from);
+        report.measure(
+            SPRITE_CELLS,
+            &format!("{NAME} {index}"),
+            cell.opacity(),
+            Bound::Within(least, most),
+        );
+    }
+    check_kinds(report, &cells);
+}
+
+/// What pictures of one's own may break on purpose.
+fn check_kinds(report: &mut Report, cells: &[Cell]) {
+    let off = cells.iter().map(|cell| (cell.grey() - 0.5).abs());
+    report.measure(
+        SPRITE_GREY,
+        NAME,
+        off.fold(0.0, f64::max),
+        Bound::AtMost(0.05),
+    );
+    let of = |kind: SheetKind| cells.iter().filter(move |cell| cell.kind == kind);
+    let flat = || of(SheetKind::FlatBottomed);
+    let cores = of(SheetKind::Puffy).chain(flat()).map(Cell::peak);
+    let least = cores.fold(f64::INFINITY, f64::min);
+    report.measure(SPRITE_CORE, NAME, least, Bound::AtLeast(LEAST_CORE));
+    let uneven = flat().map(Cell::unevenness).fold(0.0, f64::max);
+    report.measure(SPRITE_FLAT, NAME, uneven, Bound::AtMost(MOST_UNEVEN));
+    let fog = of(SheetKind::Foggy)
+        .map(Cell::roughness)
+        .fold(0.0, f64::max);
+    let puffs = of(SheetKind::Puffy).map(Cell::roughness);
+    let ratio = fog / puffs.fold(f64::INFINITY, f64::min);
+    report.measure(SPRITE_FOG, NAME, ratio, Bound::AtMost(1.0));
+}
+
+/// The largest opacity of the outermost texels of any cell.
+fn brightest_border(image: &Image) -> f64 {
+    let last = image.width / SheetCell::A_SIDE - 1;
+    let is_border = |i: u32| [0, last].contains(&(i % (last + 1)));
+    let border = places(image.width).filter(|&[x, y]| is_border(x) || is_border(y));
+    border
+        .map(|[x, y]| f64::from(image.texel(x, y)[ALPHA]))
+        .fold(0.0, f64::max)
+}
+
+fn check_levels(report: &mut Report, levels: &[Image]) {
+    let worst = |measure: fn(&Image, &Image) -> f64| {
+        let steps = levels.windows(2).map(|pair| measure(&pair[0], &pair[1]));
+        steps.fold(0.0, f64::max)
+    };
+    // Both levels were rounded: half a step each, and seven digits.
+    for (channel, figure, most) in [
+        (GREY, worst(outside_of_those_above), 1.0),
+        (ALPHA, worst(off_the_mean), 1.0001),
+    ] {
+        let name = subject(Role::Sprites, channel);
+        report.measure(SPRITE_LEVEL, &name, figure, Bound::AtMost(most));
+    }
+}
+
+/// By how many steps a texel's opacity differs from the mean of the four above it, borders of cells aside.
+fn off_the_mean(above: &Image, level: &Image) -> f64 {
+    let last = level.width / SheetCell::A_SIDE - 1;
+    let is_inside = |i: u32| (1..last).contains(&(i % (last + 1)));
+    let inside = places(level.width).filter(|&[x, y]| is_inside(x) && is_inside(y));
+    let differences = inside.map(|place| {
+        let sum: f64 = under(above, place)
+            .map(|t| f64::from(t[ALPHA]))
+            .iter()
+            .sum();
+        let [x, y] = place;
+        (f64::from(level.texel(x, y)[ALPHA]) - sum / 4.0).abs() * 255.0
+    });
+    differences.fold(0.0, f64::max)
+}
+
+/// By how many steps a texel's grey, which is a mean by weights, lies outside of the greys above it.
+fn outside_of_those_above(above: &Image, level: &Image) -> f64 {
+    let steps = places(level.width).map(|[x, y]| {
+        let greys = under(above, [x, y]).map(|t| unorm8(t[GREY]));
+        let grey = unorm8(level.texel(x, y)[GREY]);
+        let [least, most] = greys
+            .iter()
+            .fold([255, 0], |[a, b], &g| [g.min(a), g.max(b)]);
+        least.saturating_sub(grey).max(grey.saturating_sub(most))
+    });
+    f64::from(steps.max().unwrap_or(0))
+}
+
+/// The four texels that a texel of the next level is made from.
+fn under(above: &Image, [x, y]: [u32; 2]) -> [&[f32]; 4] {
+    let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
+    corners.map(|(i, j)| above.texel(2 * x + i, 2 * y + j))
+}
+
+/// The texels of a square, row by row.
+fn places(side: u32) -> impl Iterator<Item = [u32; 2]> {
+    (0..side).flat_map(move |y| (0..side).map(move |x| [x, y]))
+}
+
+/// A cell of level 0.
+struct Cell<'a> {
+    image: &'a Image,
+    kind: SheetKind,
+    corner: [u32; 2],
+    side: u32,
+}
+
+impl Cell<'_> {
+    fn new(image: &Image, cell: SheetCell) -> Cell<'_> {
+        let side = image.width / SheetCell::A_SIDE;
+        Cell {
+            image,
+            kind: cell.kind(),
+            corner: cell.place().map(|i| i * side),
+            side,
+        }
+    }
+
+    /// Grey and opacity of one of its texels.
+    fn texel(&self, [x, y]: [u32; 2]) -> [f64; 2] {
+        let [left, top] = self.corner;
+        let texel = self.image.texel(left + x, top + y);
+        [texel[GREY], texel[ALPHA]].map(f64::from)
+    }
+
+    fn texels(&self) -> impl Iterator<Item = [f64; 2]> {
+        places(self.side).map(|place| self.texel(place))
+    }
+
+    fn opacity(&self) -> f64 {
+        let sum: f64 = self.texels().map(|[_, alpha]| alpha).sum();
+        sum / f64::from(self.side * self.side)
+    }
+
+    fn peak(&self) -> f64 {
+        self.texels().map(|[_, alpha]| alpha).fold(0.0, f64::max)
+    }
+
+    /// Mean grey, weighted by opacity; not a number if there is none.
+    fn grey(&self) -> f64 {
+        let [sum, weights] = self
+            .texels()
+            .fold([0.0; 2], |[sum, weights], [grey, alpha]| {
+                [sum + alpha * grey, weights + alpha]
+            });
+        sum / weights
+    }
+
+    /// Root mean square difference of grey between neighbouring texels, weighted by the lesser opacity.
+    fn roughness(&self) -> f64 {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for [x, y] in places(self.side - 1) {
+            let [grey, alpha] = self.texel([x, y]);
+            for beside in [[x + 1, y], [x, y + 1]] {
+                let [other, opacity] = self.texel(beside);
+                let weight = alpha.min(opacity);
+                sum += weight * (other - grey) * (other - grey);
+                weights += weight;
+            }
+        }
+        libm::sqrt(sum / weights)
+    }
+
+    /// How uneven the lower outline is: its mean distance from its median, as a share of the sprite's width, without an
+    /// eighth at either end, where puffs are round. The outline is, column by column, the lowest texel that is half as opaque
+    /// as the densest one.
+    fn unevenness(&self) -> f64 {
+        let half = self.peak() / 2.0;
+        let rows = (0..self.side).filter_map(|x| {
+            let is_opaque = |y: &u32| self.texel([x, *y])[1] >= half;
+            (0..self.side).rev().find(is_opaque)
+        });
+        let mut rows: Vec<u32> = rows.collect();
+        let width = rows.len();
+        rows.truncate(width - width / 8);
+        rows.drain(..width / 8);
+        rows.sort_unstable();
+        let Some(&median) = rows.get(rows.len() / 2) else {
+            return f64::NAN;
+        };
+        let away: u32 = rows.iter().map(|row| row.abs_diff(median)).sum();
+        f64::from(away) / rows.len() as f64 / width as f64
+    }
+}
