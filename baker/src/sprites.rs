@@ -29,6 +29,7 @@ use crate::settings::{SpriteShape, SpriteSource, SpritesSettings};
 use crate::stream::Stream;
 use march::picture;
 pub(crate) use pictures::read;
+pub(crate) use puff::FLOOR;
 use puff::Puff;
 use veil::{Fog, Wisp};
 use volume::Volume;

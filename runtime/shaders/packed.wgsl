@@ -18,6 +18,18 @@ fn packed_fold(grey: f32) -> f32 {
     return grey - 0.75 * (beyond + sqrt(beyond * beyond + PACKED_FOLD * PACKED_FOLD));
 }
 
+// Opacity of the thin upper layer.
+fn packed_veil(hit: DomeHit, level: f32) -> f32 {
+    let packed = uniforms.packed;
+    let wisp = packed_sample(hit.plane * packed.upper.xy + packed.upper.zw, level + packed.levels.y).g;
+    return packed.shape.w * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, wisp);
+}
+
+// Its radiance: white under the sunset tint.
+fn packed_white(tint: f32) -> vec3f {
+    return cloud_light(mix(vec3f(1.0), uniforms.clouds.tint.rgb, tint));
+}
+
 // Radiance and opacity of the clouds along a unit direction above the horizon.
 fn packed_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let packed = uniforms.packed;
@@ -47,12 +59,9 @@ fn packed_layer(direction: vec3f, narrowing: f32) -> vec4f {
 
     alpha = cloud_soften(alpha, PACKED_EDGE);
     if UPPER_LAYER {
-        let uv = hit.plane * packed.upper.xy + packed.upper.zw;
-        let wisp = packed_sample(uv, level + packed.levels.y).g;
-        let veil = packed.shape.w * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, wisp);
+        let veil = packed_veil(hit, level);
         let over = alpha + veil * (1.0 - alpha);
-        let white = cloud_light(mix(vec3f(1.0), uniforms.clouds.tint.rgb, tint));
-        radiance = mix(white, radiance, alpha / max(over, 1e-4));
+        radiance = mix(packed_white(tint), radiance, alpha / max(over, 1e-4));
         alpha = over;
     }
     return vec4f(radiance, alpha * cloud_clearness(direction));

@@ -21,6 +21,18 @@ fn dither_noise(pixel: vec2f) -> f32 {
     return fract(52.9829189 * fract(dot(pixel - 0.5, vec2f(0.06711056, 0.00583715)))) - 0.5;
 }
 
+// As the target has it, without dither.
+fn display_colour(radiance: vec3f) -> vec3f {
+    if OUTPUT == OUTPUT_RADIANCE {
+        return radiance;
+    }
+    let display = tone_curve(radiance * uniforms.tonemap.display.x);
+    if OUTPUT == OUTPUT_ENCODED {
+        return srgb_encode(display);
+    }
+    return display;
+}
+
 fn finish(radiance: vec3f, pixel: vec2f) -> vec4f {
     if OUTPUT == OUTPUT_RADIANCE {
         return vec4f(radiance, 1.0);

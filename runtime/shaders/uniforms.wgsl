@@ -13,6 +13,7 @@ struct Uniforms {
     octaves: OctaveUniforms,
     fbm: FbmUniforms,
     lit: LitUniforms,
+    sprites: SpriteUniforms,
     shadow: ShadowUniforms,
     lightning: LightningUniforms,
     rays: RayUniforms,

@@ -21,6 +21,9 @@ pub struct Camera {
     pub viewport_px: [u32; 2],
     /// Where the viewer stands, in metres from the origin of the world; what is not finite counts as 0.
     pub position_m: Vec3,
+    /// Depth of what stands in space, in clip space: `clip z = a w + b`, with `w` the distance along the axis in metres. None for a projection
+    /// whose far plane is infinitely far.
+    pub clip_z: Option<[f32; 2]>,
 }
 
 /// The field of view is kept inside this range, in radians: a tangent is neither 0 nor infinite.
@@ -52,6 +55,7 @@ impl Camera {
             lens_shift: Vec2::ZERO,
             viewport_px,
             position_m: Vec3::ZERO,
+            clip_z: None,
         }
     }
 
@@ -70,6 +74,7 @@ impl Camera {
             lens_shift: Vec2::new(projection.z_axis.x, projection.z_axis.y),
             viewport_px,
             position_m,
+            clip_z: Some([-projection.z_axis.z, projection.w_axis.z]),
         }
     }
 

@@ -12,6 +12,11 @@ pub enum SkyError {
         /// The missing role.
         role: Role,
     },
+    /// The pack has no clouds in space.
+    #[error(
+        "the pack has no field of clouds for the method \"sprites\"; bake it again with a recipe that makes one"
+    )]
+    MissingField,
     /// A texture is larger than the device can hold.
     #[error(
         "the texture \"{}\" is {width}x{height} texels, this device takes at most {limit} a side; \

@@ -56,8 +56,10 @@ fn cell(sun: Vec3) -> [i32; 2] {
 #[derive(Debug)]
 pub(crate) struct Pass {
     texture: wgpu::Texture,
-    /// Layers of the texture as targets, and of the pack's texture as what they are made from.
-    layers: Vec<(wgpu::TextureView, wgpu::BindGroup)>,
+    /// Its layers as targets.
+    layers: Vec<wgpu::TextureView>,
+    /// The pack's texture. GL reads arrays whole, never a layer alone.
+    source: wgpu::BindGroup,
     pipeline: wgpu::RenderPipeline,
     /// The step that the channels hold now.
     packed_for: Option<[f32; 2]>,
@@ -75,7 +77,7 @@ impl Pass {
         let count = octaves.depth_or_array_layers();
         let size = [octaves.width(), octaves.height(), count];
         let texture = map::target(device, "fbm octaves", format, size, 1);
-        let layer = |texture: &wgpu::Texture, layer: u32| {
+        let layer = |layer: u32| {
             texture.create_view(&wgpu::TextureViewDescriptor {
                 dimension: Some(wgpu::TextureViewDimension::D2),
                 base_array_layer: layer,
@@ -83,13 +85,10 @@ impl Pass {
                 ..Default::default()
             })
         };
-        let layers = (0..count).map(|index| {
-            let source = layouts.texture_group(device, &layer(octaves, index));
-            (layer(&texture, index), source)
-        });
         Pass {
-            layers: layers.collect(),
-            pipeline: layouts.off_screen(device, module, "fs_fbm_pack", &layouts.texture, format),
+            layers: (0..count).map(layer).collect(),
+            source: layouts.layers_group(device, octaves),
+            pipeline: layouts.off_screen(device, module, "fs_fbm_pack", &layouts.layers, format),
             packed_for: None,
             texture,
         }
@@ -110,8 +109,8 @@ impl Pass {
         if self.packed_for == Some(step) {
             return;
         }
-        for (target, source) in &self.layers {
-            map::draw(encoder, target, &self.pipeline, [shared, source]);
+        for target in self.layers.iter().zip(0..) {
+            map::draw_layer(encoder, target, &self.pipeline, [shared, &self.source]);
         }
         self.packed_for = Some(step);
     }

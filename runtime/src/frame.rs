@@ -1,5 +1,6 @@
 //! A frame's uniforms: all that is computed once a frame, from pack, parameters, camera and seconds.
 
+use welkin_pack::field::Hour;
 use welkin_pack::{Image, Pack, Role, Texture};
 
 use crate::clouds::CloudView;
@@ -8,7 +9,7 @@ use crate::light::Light;
 use crate::uniforms::{CameraUniforms, Uniforms, vec4};
 use crate::{
     Camera, Method, SkyError, SkyParams, clouds, fbm, flares, galaxy, lightning, lit, octaves,
-    octaves_map, packed, perez, rain, rays, shadow, sky, skybox, stars, sun, tonemap,
+    octaves_map, packed, perez, rain, rays, shadow, sky, skybox, sprites, stars, sun, tonemap,
 };
 
 /// What the CPU keeps of a pack between frames.
@@ -36,6 +37,10 @@ pub struct Facts {
     pub noise: Vec<u8>,
     /// The octaves of smooth noise.
     pub fbm: Octaves,
+    /// Light on the sprites' clouds over the day; empty without a field.
+    pub hours: Vec<Hour>,
+    /// The lowest base and the highest top of the sprites' clouds, in metres; 0 without a field.
+    pub cloud_heights_m: [f32; 2],
 }
 
 impl Facts {
@@ -57,6 +62,8 @@ impl Facts {
             seed: pack.manifest().seed,
             noise: texture(pack, Role::Octaves)?.levels.concat(),
             fbm: Octaves::new(texture(pack, Role::Fbm)?),
+            hours: pack.field().map_or(Vec::new(), |field| field.hours.clone()),
+            cloud_heights_m: pack.field().map_or([0.0; 2], sprites::heights_m),
         })
     }
 
@@ -76,7 +83,8 @@ impl Facts {
         seconds: f64,
         step: f32,
     ) -> Uniforms {
-        let params = params.clamped();
+        let whole = params.clamped();
+        let params = whole.dome();
         let seconds = finite(seconds);
         let light = Light::new(&self.sky, self.noon_elevation_rad, params.time);
         let night = if params.stars { light.night } else { 0.0 };
@@ -100,17 +108,26 @@ impl Facts {
         let fbm = fbm::uniforms(&params, &view, &self.fbm, light.sun_direction);
         let lit = lit::uniforms(&params, &view, &light, &clouds);
         let flash = lightning::uniforms(&params, &view, &clouds, &lit);
+        let sprites = sprites::uniforms(&whole, &view, &light, &self.hours, &flash);
         let shown = match params.method {
             Method::Lit => lit::luminary(&light, params.lit.moon),
             _ => light,
         };
         let overcast = match params.method {
-            Method::Packed => packed::overcast(&packed, &clouds, self.cloud_means),
+            _ if whole.method == Method::Sprites => sprites::overcast(&sprites),
+            Method::Packed | Method::Sprites => {
+                packed::overcast(&packed, &clouds, self.cloud_means)
+            }
             Method::Octaves => octaves::overcast(&octaves, &clouds),
             Method::Fbm => fbm::overcast(&fbm, &clouds),
             Method::Lit => lit::overcast(&lit),
         };
-        let overcast = vec4(overcast, clouds::closing(params.cover));
+        let closing = if whole.method == Method::Sprites {
+            sprites::closing(&whole, stands.y as f32, self.cloud_heights_m)
+        } else {
+            clouds::closing(whole.cover)
+        };
+        let overcast = vec4(overcast, closing);
         let camera = camera_uniforms(camera);
         // Without a skybox the shader does not read one.
         let (face, levels) = self.skybox.unwrap_or((1, 1));
@@ -131,6 +148,7 @@ impl Facts {
             rain: rain::uniforms(&params, &view, &rays, &clouds, &lit, &flash),
             shadow: shadow::uniforms(&params, &view, &lit),
             lit,
+            sprites,
             flares: flares::uniforms(&params, &light, &camera, self.flares),
             tonemap: tonemap::uniforms(&params, step),
         }

@@ -59,7 +59,7 @@ impl Layouts {
         group(device, &self.texture, &[(0, view)])
     }
 
-    /// Group 1 with an array of textures, even if it has one layer only.
+    /// Group 1 with an array of textures: it has [`array_layers`].
     pub fn layers_group(&self, device: &wgpu::Device, texture: &wgpu::Texture) -> wgpu::BindGroup {
         group(device, &self.layers, &[(1, &array(texture))])
     }
@@ -156,7 +156,18 @@ fn group(
     })
 }
 
-/// A view of all layers, even if there is one only.
+/// Layers of a square texture that is read as an array of `count`.
+///
+/// On GL, wgpu goes by a texture's size alone: it takes one layer for a plane, and a square six, or a multiple, for a cube.
+pub(crate) fn array_layers(count: u32) -> u32 {
+    if count == 1 || count.is_multiple_of(6) {
+        count + 1
+    } else {
+        count
+    }
+}
+
+/// A view of all layers.
 fn array(texture: &wgpu::Texture) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(wgpu::TextureViewDimension::D2Array),
@@ -257,4 +268,19 @@ fn sampler(device: &wgpu::Device, mode: wgpu::AddressMode) -> wgpu::Sampler {
         mipmap_filter: wgpu::MipmapFilterMode::Linear,
         ..Default::default()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_array_has_the_layers_of_a_plane_or_of_a_cube() {
+        for count in 1..=24 {
+            let layers = array_layers(count);
+            assert!(layers >= count && layers <= count + 1, "{count}");
+            assert!(layers != 1 && !layers.is_multiple_of(6), "{count}");
+        }
+        assert_eq!([2, 3, 8].map(array_layers), [2, 3, 8]);
+    }
 }

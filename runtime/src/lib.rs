@@ -8,8 +8,9 @@
 //! # Practice
 //! One triangle over the screen, one fragment shader, five to ten texture reads a pixel, inside
 //! `Limits::downlevel_webgl2_defaults()`. All work a frame is done in [`Sky::prepare`], which writes one
-//! uniform buffer and draws off screen what needs that: the small cloud maps of all methods but [`Method::Packed`], and cloud shadows and
-//! rays while they are on. A frame is a pure function of pack, parameters, camera and seconds.
+//! uniform buffer and draws off screen what needs that: the small cloud maps of [`Method::Octaves`], [`Method::Fbm`] and [`Method::Lit`],
+//! the impostors of [`Method::Sprites`], and cloud shadows and rays while they are on. A frame is a pure function of pack, parameters,
+//! camera and seconds, but for what [`Sky::forget`] forgets.
 //!
 //! ```no_run
 //! # fn f(device: &wgpu::Device, queue: &wgpu::Queue, mut encoder: wgpu::CommandEncoder, descriptor: &wgpu::RenderPassDescriptor<'_>) -> Result<(), Box<dyn std::error::Error>> {
@@ -57,6 +58,7 @@ pub mod shader;
 pub mod shadow;
 pub mod sky;
 pub mod skybox;
+pub mod sprites;
 pub mod stars;
 pub mod sun;
 pub mod tonemap;
@@ -68,7 +70,7 @@ pub use error::SkyError;
 pub use oktas::Oktas;
 pub use params::{
     FbmParams, Lightning, LitLayer, LitParams, Method, OctaveParams, ParamError, SkyModel,
-    SkyParams, WeatherParams,
+    SkyParams, SpriteParams, WeatherParams,
 };
 pub use perez::{PerezParams, PerezShape};
 pub use renderer::{DepthConfig, Sky, SkyConfig};

@@ -16,7 +16,7 @@
 //! Eight reads a texel and layer, 256x256 texels. Channels: R is `LT` (eq. 3), G the amount of
 //! cloud before cover, B the opacity, A the shade.
 
-use crate::layouts::Layouts;
+use crate::layouts::{Layouts, array_layers};
 use crate::map;
 use crate::params::{LAYERS_AN_ITERATION, MAX_LAYERS};
 
@@ -59,7 +59,7 @@ impl Pass {
         layers: &wgpu::Texture,
     ) -> Pass {
         let count = (SIDE / map::LEAST_SIDE).ilog2() + 1;
-        let size = [SIDE, SIDE, MAX_LAYERS as u32];
+        let size = [SIDE, SIDE, array_layers(MAX_LAYERS as u32)];
         let texture = map::target(device, "lit map", FORMAT, size, count);
         let view = |level: u32, layer: u32| {
             texture.create_view(&wgpu::TextureViewDescriptor {
@@ -116,7 +116,7 @@ impl Pass {
         }
     }
 
-    /// The map itself: an array of [`MAX_LAYERS`].
+    /// The map itself: an array of [`MAX_LAYERS`], and what [`array_layers`] adds.
     pub fn texture(&self) -> &wgpu::Texture {
         &self.texture
     }

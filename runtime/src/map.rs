@@ -123,13 +123,34 @@ pub(crate) fn draw<const N: usize>(
     pipeline: &wgpu::RenderPipeline,
     groups: [&wgpu::BindGroup; N],
 ) {
-    draw_into(encoder, std::slice::from_ref(target), pipeline, groups);
+    draw_layer(encoder, (target, 0), pipeline, groups);
+}
+
+/// The same over a layer of an array, whose number the shader is told.
+pub(crate) fn draw_layer<const N: usize>(
+    encoder: &mut wgpu::CommandEncoder,
+    (target, layer): (&wgpu::TextureView, u32),
+    pipeline: &wgpu::RenderPipeline,
+    groups: [&wgpu::BindGroup; N],
+) {
+    let targets = std::slice::from_ref(target);
+    draw_instance(encoder, targets, layer, pipeline, groups);
 }
 
 /// The same over several targets at once.
 pub(crate) fn draw_into<const N: usize>(
     encoder: &mut wgpu::CommandEncoder,
     targets: &[wgpu::TextureView],
+    pipeline: &wgpu::RenderPipeline,
+    groups: [&wgpu::BindGroup; N],
+) {
+    draw_instance(encoder, targets, 0, pipeline, groups);
+}
+
+fn draw_instance<const N: usize>(
+    encoder: &mut wgpu::CommandEncoder,
+    targets: &[wgpu::TextureView],
+    instance: u32,
     pipeline: &wgpu::RenderPipeline,
     groups: [&wgpu::BindGroup; N],
 ) {
@@ -154,7 +175,7 @@ pub(crate) fn draw_into<const N: usize>(
     for (index, group) in groups.into_iter().enumerate() {
         pass.set_bind_group(index as u32, group, &[]);
     }
-    pass.draw(0..3, 0..1);
+    pass.draw(0..3, instance..instance + 1);
 }
 
 /// Bytes of a texture with all its levels and layers.

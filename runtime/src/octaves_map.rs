@@ -25,7 +25,7 @@
 use half::f16;
 
 use crate::SkyParams;
-use crate::layouts::Layouts;
+use crate::layouts::{Layouts, array_layers};
 use crate::map::{self, Map};
 use crate::params::MAX_OCTAVES;
 
@@ -212,11 +212,10 @@ impl Pass {
 
     /// Makes the textures anew if they are for another number of octaves.
     pub fn fit(&mut self, device: &wgpu::Device, layouts: &Layouts, count: u32) {
-        if self.states.depth_or_array_layers() == count {
-            return;
+        if self.states.depth_or_array_layers() != array_layers(count) {
+            self.states = states_texture(device, count);
+            self.source = layouts.layers_group(device, &self.states);
         }
-        self.states = states_texture(device, count);
-        self.source = layouts.layers_group(device, &self.states);
         if self.map.texture().width() != side(count) {
             self.map = self.map.resized(device, layouts, side(count));
         }
@@ -239,12 +238,11 @@ impl Pass {
             bytes_per_row: Some(NOISE_SIDE * 2),
             rows_per_image: Some(NOISE_SIDE),
         };
-        queue.write_texture(
-            self.states.as_image_copy(),
-            &bytes,
-            layout,
-            self.states.size(),
-        );
+        let size = wgpu::Extent3d {
+            depth_or_array_layers: states.len() as u32 / (NOISE_SIDE * NOISE_SIDE),
+            ..self.states.size()
+        };
+        queue.write_texture(self.states.as_image_copy(), &bytes, layout, size);
         self.map
             .record(encoder, shared, &self.pipeline, &self.source);
     }
@@ -262,7 +260,7 @@ fn states_texture(device: &wgpu::Device, count: u32) -> wgpu::Texture {
         size: wgpu::Extent3d {
             width: NOISE_SIDE,
             height: NOISE_SIDE,
-            depth_or_array_layers: count,
+            depth_or_array_layers: array_layers(count),
         },
         mip_level_count: 1,
         sample_count: 1,

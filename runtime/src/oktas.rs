@@ -11,6 +11,7 @@
 //! - octaves: the map holds shares of its own distribution, evenly distributed by construction; three domes and the finer
 //!   read are independent ([`crate::octaves`]).
 //! - fbm: octaves drift apart, so the distribution of their sum is the convolution of theirs ([`crate::fbm`]).
+//! - sprites: clouds have ranks by the share of the ground that they cover together; its oktas are that share.
 //! - lit: the blend of ranks is evenly distributed by construction, layers are independent, and cover is the covered share but for
 //!   thin cloud before thin cloud ([`crate::lit`]).
 //!
@@ -123,13 +124,17 @@ impl Oktas {
         0.5 * (low + high)
     }
 
-    /// How many oktas parameters show on average, 0..=8.
+    /// How many oktas parameters show on average, 0..=8. [`Method::Sprites`] counts the ground below clouds instead of the sky, as its
+    /// cover does: clouds in space hide more of the sky than they stand over, the more the taller they are.
     pub fn shown(&self, params: &SkyParams) -> f32 {
+        if params.method == Method::Sprites {
+            return OKTAS * params.clamped().cover;
+        }
         // Neither camera nor moment change what is read here.
         let camera = Camera::looking(0.0, 0.0, 1.0, [1, 1]);
         let uniforms = self.facts.uniforms(params, &camera, 0.0, 0.0);
         let share = |opacity: f32| match params.method {
-            Method::Packed => self.packed_share(&uniforms.packed, opacity),
+            Method::Packed | Method::Sprites => self.packed_share(&uniforms.packed, opacity),
             Method::Octaves => octaves_share(&uniforms.octaves, opacity),
             Method::Fbm => self.fbm_share(&uniforms.fbm, opacity),
             Method::Lit => lit_share(&uniforms.lit, opacity),

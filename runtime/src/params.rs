@@ -1,9 +1,11 @@
 //! The parameters of Roden and Parberry, those of each method, and a few of our own.
 
 mod lit;
+mod sprites;
 mod weather;
 
 pub use lit::{LAYERS_AN_ITERATION, LitLayer, LitParams, MAX_LAYERS};
+pub use sprites::{LEAST_RING_M, MOST_DISTANCE_M, SpriteParams};
 pub use weather::{Lightning, WeatherParams};
 
 use crate::PerezParams;
@@ -20,11 +22,22 @@ pub enum Method {
     Fbm,
     /// Layers with normals, lit by sun and moon: K. Mukhina, A. Bezgodov, 2015. See [`crate::lit`].
     Lit,
+    /// Clouds in space, made of sprites: N. Wang, 2004. See [`crate::sprites`].
+    Sprites,
 }
 
 impl Method {
     /// Every method, in the order of their numbers.
-    pub const ALL: [Method; 4] = [Method::Packed, Method::Octaves, Method::Fbm, Method::Lit];
+    pub const ALL: [Method; 5] = [
+        Method::Packed,
+        Method::Octaves,
+        Method::Fbm,
+        Method::Lit,
+        Method::Sprites,
+    ];
+
+    /// The methods whose clouds are on a dome about the viewer, in the order of their numbers.
+    pub const DOMES: [Method; 4] = [Method::Packed, Method::Octaves, Method::Fbm, Method::Lit];
 
     /// The name on command lines and in settings.
     pub const fn name(self) -> &'static str {
@@ -33,6 +46,7 @@ impl Method {
             Method::Octaves => "octaves",
             Method::Fbm => "fbm",
             Method::Lit => "lit",
+            Method::Sprites => "sprites",
         }
     }
 }
@@ -169,6 +183,8 @@ pub struct SkyParams {
     pub fbm: FbmParams,
     /// Of [`Method::Lit`].
     pub lit: LitParams,
+    /// Of [`Method::Sprites`].
+    pub sprites: SpriteParams,
     /// Rays, rain and lightning.
     pub weather: WeatherParams,
     /// Side of the square around the viewer whose cloud shadows [`crate::Sky::shadow`] gives, in metres, 0..=1000000; 0 for none.
@@ -212,6 +228,7 @@ impl Default for SkyParams {
             octaves: OctaveParams::default(),
             fbm: FbmParams::default(),
             lit: LitParams::default(),
+            sprites: SpriteParams::default(),
             weather: WeatherParams::default(),
             shadow_extent_m: 0.0,
             sun: true,
@@ -252,6 +269,18 @@ impl SkyParams {
         }
     }
 
+    /// The parameters of the dome: those of the method behind the sprites, or these themselves.
+    pub(crate) fn dome(self) -> SkyParams {
+        if self.method != Method::Sprites {
+            return self;
+        }
+        SkyParams {
+            method: self.sprites.behind,
+            cover: self.sprites.behind_cover,
+            ..self
+        }
+    }
+
     /// The same parameters, all in their ranges.
     pub fn clamped(mut self) -> SkyParams {
         for (_, value, usual, [low, high]) in self.numbers() {
@@ -262,6 +291,9 @@ impl SkyParams {
             };
         }
         self.octaves.count = self.octaves.count.clamp(1, MAX_OCTAVES);
+        if self.sprites.ring_radius_m < LEAST_RING_M {
+            self.sprites.ring_radius_m = 0.0;
+        }
         self.perez.shape = self.perez.shape.clamped();
         let lightning = &mut self.weather.lightning;
         lightning.start_s = weather::clamped_start(lightning.start_s);
@@ -290,6 +322,14 @@ impl SkyParams {
                 key: "octaves.count",
                 found: count.to_string(),
                 expected: format!("a number from 1 to {MAX_OCTAVES}"),
+            });
+        }
+        let ring = self.sprites.ring_radius_m;
+        if ring != 0.0 && ring < LEAST_RING_M {
+            return Err(ParamError {
+                key: "sprites.ring_radius_m",
+                found: ring.to_string(),
+                expected: format!("0 or a number from {LEAST_RING_M} to {MOST_DISTANCE_M}"),
             });
         }
         weather::check_start(self.weather.lightning.start_s)?;
@@ -366,6 +406,7 @@ impl SkyParams {
             ),
         ];
         numbers.extend(lit::numbers(&mut self.lit));
+        numbers.extend(sprites::numbers(&mut self.sprites));
         numbers.extend(weather::numbers(&mut self.weather));
         numbers
     }
@@ -436,6 +477,11 @@ mod tests {
             told(&|p| p.weather.lightning.start_s = f64::NAN),
             "weather.lightning.start_s is NaN, expected a number from -1000000000 to 1000000000"
         );
+        assert_eq!(
+            told(&|p| p.sprites.ring_radius_m = 100.0),
+            "sprites.ring_radius_m is 100, expected 0 or a number from 4000 to 60000"
+        );
+        assert!(told(&|p| p.sprites.formation = -0.5).starts_with("sprites.formation is -0.5"));
         assert!(told(&|p| p.weather.rain = 1.5).starts_with("weather.rain is 1.5"));
         assert!(told(&|p| p.octaves.domes[1] = 1.5).starts_with("octaves.domes[1] is 1.5"));
         assert!(told(&|p| p.cover = -0.1).starts_with("cover is -0.1"));

@@ -231,13 +231,13 @@ pub(crate) fn overlay_pipeline(
 /// What the dome of a method reads in group 1.
 pub(crate) fn own_layout(layouts: &Layouts, method: Method) -> Option<&wgpu::BindGroupLayout> {
     match method {
-        Method::Packed => None,
+        Method::Packed | Method::Sprites => None,
         Method::Octaves | Method::Fbm => Some(&layouts.texture),
         Method::Lit => Some(&layouts.lit),
     }
 }
 
-fn multisample_state(config: &SkyConfig) -> wgpu::MultisampleState {
+pub(crate) fn multisample_state(config: &SkyConfig) -> wgpu::MultisampleState {
     wgpu::MultisampleState {
         count: config.sample_count,
         ..Default::default()
@@ -245,7 +245,7 @@ fn multisample_state(config: &SkyConfig) -> wgpu::MultisampleState {
 }
 
 /// The sky lies exactly at the far plane: what was cleared to it and nothing nearer lets it through.
-fn depth_state(depth: DepthConfig) -> wgpu::DepthStencilState {
+pub(crate) fn depth_state(depth: DepthConfig) -> wgpu::DepthStencilState {
     wgpu::DepthStencilState {
         format: depth.format,
         depth_write_enabled: Some(false),

@@ -16,6 +16,8 @@ pub(crate) struct Common {
     pub fbm: wgpu::Texture,
     /// The layers of [`Method::Lit`].
     pub layers: wgpu::Texture,
+    /// The sheet of [`Method::Sprites`].
+    pub sheet: wgpu::Texture,
     /// Whether the sky is drawn on the dome's mesh.
     pub mesh: bool,
     /// Whether the target can be blended with.
@@ -23,7 +25,8 @@ pub(crate) struct Common {
 }
 
 impl Common {
-    fn module(&self, method: Method, sky: SkyModel) -> wgpu::ShaderModule {
+    /// The shader of a dome with a sky model.
+    pub fn module(&self, method: Method, sky: SkyModel) -> wgpu::ShaderModule {
         let build = Build {
             method,
             sky,
@@ -90,7 +93,7 @@ impl Program {
         let module = common.module(method, sky);
         let flare = || common.overlay(&module, own_layout(layouts, method), &Overlay::FLARE);
         let map = match method {
-            Method::Packed => OwnMap::None,
+            Method::Packed | Method::Sprites => OwnMap::None,
             Method::Octaves => {
                 OwnMap::Octaves(octaves_map::Pass::new(device, &module, layouts, octaves).into())
             }

@@ -5,19 +5,22 @@
 //! and its map, is made when that method is first prepared or [`Sky::load`]ed, and kept. Draw after the opaque scene:
 //! pixels that the scene covers then cost nothing.
 
-use welkin_pack::{Pack, Role};
+use glam::Vec3;
+use welkin_pack::{Field, Pack, Role};
 use wgpu::util::DeviceExt;
 
-use crate::frame::Facts;
+use crate::frame::{self, Facts};
 use crate::layouts::{Layouts, shared_group};
 use crate::pipeline::{Variant, output};
 use crate::program::{Common, OwnMap, Program};
 use crate::shader::Build;
 use crate::shadow::{self, Shadow};
+use crate::sprites::outline::{Outline, outlines};
 use crate::uniforms::Uniforms;
 use crate::upload::upload;
 use crate::{
-    Camera, Method, SkyError, SkyModel, SkyParams, dome, flares, octaves_map, rain, tonemap,
+    Camera, Method, SkyError, SkyModel, SkyParams, dome, flares, octaves_map, rain, sprites,
+    tonemap,
 };
 
 /// What the sky is drawn onto.
@@ -53,6 +56,9 @@ pub struct Sky {
     step: f32,
     dome: Option<DomeBuffers>,
     programs: [Option<Program>; Method::ALL.len()],
+    field: Option<Field>,
+    outlines: Vec<Outline>,
+    sprites: Option<Box<sprites::pass::Pass>>,
     prepared: Option<Prepared>,
 }
 
@@ -67,6 +73,7 @@ struct Prepared {
     rain: u32,
     flare: bool,
     shadow: Option<shadow::Area>,
+    sprites: bool,
 }
 
 /// The dome's mesh on the device.
@@ -139,6 +146,7 @@ impl Sky {
         let common = Common {
             fbm: upload(device, queue, pack, Role::Fbm)?,
             layers: upload(device, queue, pack, Role::Layers)?,
+            sheet: upload(device, queue, pack, Role::Sprites)?,
             mesh: dome_step_deg.is_some(),
             blends: usable
                 .flags
@@ -150,10 +158,20 @@ impl Sky {
         };
         Ok(Sky {
             shared: shared_group(device, queue, pack, &common.layouts, &buffer)?,
-            pack_bytes: [Role::Clouds, Role::Octaves, Role::Fbm, Role::Layers].map(bytes),
+            pack_bytes: [
+                Role::Clouds,
+                Role::Octaves,
+                Role::Fbm,
+                Role::Layers,
+                Role::Sprites,
+            ]
+            .map(bytes),
             step: tonemap::step(config.target_format),
             dome: dome_step_deg.map(|step| dome_buffers(device, step)),
             programs: [const { None }; Method::ALL.len()],
+            field: pack.field().cloned(),
+            outlines: outlines(frame::texture(pack, Role::Sprites)?),
+            sprites: None,
             prepared: None,
             common,
             buffer,
@@ -162,16 +180,70 @@ impl Sky {
     }
 
     /// Compiles the shader of a method with a sky model and makes the method's map, so that their first frame need not.
+    /// For [`Method::Sprites`] that is what draws the sprites over a clear dome.
     pub fn load(&mut self, method: Method, sky: SkyModel) {
         let octaves = octaves_map::DEFAULT_COUNT;
-        fitting(&mut self.programs, &self.common, method, sky, octaves);
+        let params = SkyParams {
+            method,
+            sky,
+            ..SkyParams::default()
+        };
+        self.fit_sprites(&params);
+        let dome = params.dome().method;
+        fitting(&mut self.programs, &self.common, dome, sky, octaves);
+    }
+
+    /// Makes what draws sprites, if the parameters want them and pack and target allow them.
+    fn fit_sprites(&mut self, params: &SkyParams) -> Option<&mut sprites::pass::Pass> {
+        let field = self.field.as_ref()?;
+        if params.method != Method::Sprites || !self.common.blends {
+            return None;
+        }
+        let (common, outlines) = (&self.common, &self.outlines);
+        let distance_m = params.sprites.distance_m;
+        let pass = self.sprites.get_or_insert_with(|| {
+            sprites::pass::Pass::new(common, field, outlines, distance_m).into()
+        });
+        pass.load(common, params.sky);
+        Some(pass)
+    }
+
+    /// Whether the pack has what a method draws from.
+    ///
+    /// # Errors
+    /// [`SkyError::MissingField`] for [`Method::Sprites`] with a pack that has no clouds in space: it then draws the dome alone.
+    pub fn supports(&self, method: Method) -> Result<(), SkyError> {
+        if method == Method::Sprites && self.field.is_none() {
+            return Err(SkyError::MissingField);
+        }
+        Ok(())
+    }
+
+    /// Forgets what [`Method::Sprites`] keeps of earlier frames, its ring of impostors and the facing of sprites near the viewer: the next
+    /// frame is drawn as a new sky would draw it. No other method keeps anything.
+    pub fn forget(&mut self) {
+        if let Some(pass) = &mut self.sprites {
+            pass.forget();
+        }
+    }
+
+    /// Sprites that the prepared frame draws: on the screen, and into the ring of impostors.
+    pub fn sprites_drawn(&self) -> [u64; 2] {
+        let shows = self.prepared.is_some_and(|prepared| prepared.sprites);
+        let pass = self.sprites.as_ref().filter(|_| shows);
+        pass.map_or([0; 2], |pass| pass.drawn())
+    }
+
+    /// Bytes of the ring of impostors: 2 MiB, and 4 MiB while it changes.
+    pub fn ring_bytes(&self) -> u64 {
+        self.sprites.as_ref().map_or(0, |pass| pass.ring_bytes())
     }
 
     /// Computes a frame: writes its uniforms and records the off-screen passes of its method into `encoder`, before the
     /// pass in which the sky is drawn. `seconds` moves clouds and stars; any value will do.
     ///
-    /// Nothing of a picture is remembered from frame to frame: the same arguments give the same picture. Submit the
-    /// encoder before the next frame is prepared.
+    /// Nothing of a picture is remembered from frame to frame: the same arguments give the same picture, but with
+    /// [`Method::Sprites`], see [`Sky::forget`]. Submit the encoder before the next frame is prepared.
     pub fn prepare(
         &mut self,
         queue: &wgpu::Queue,
@@ -180,8 +252,33 @@ impl Sky {
         camera: &Camera,
         seconds: f64,
     ) {
-        let params = params.clamped();
-        let uniforms = self.facts.uniforms(&params, camera, seconds, self.step);
+        let whole = params.clamped();
+        let params = whole.dome();
+        let mut uniforms = self.facts.uniforms(&whole, camera, seconds, self.step);
+        self.fit_sprites(&whole);
+        let seconds = if seconds.is_finite() { seconds } else { 0.0 };
+        let frame = |uniforms| sprites::frame::Frame {
+            params: &whole,
+            camera,
+            seconds,
+            uniforms,
+        };
+        let shown = self
+            .sprites
+            .as_mut()
+            .filter(|_| whole.method == Method::Sprites);
+        let sprites = shown.is_some();
+        if let Some(pass) = shown {
+            pass.record(
+                &self.common,
+                queue,
+                encoder,
+                &self.shared,
+                &frame(&uniforms),
+            );
+            let sun = Vec3::from_slice(&uniforms.sky.sun);
+            uniforms.flares.light[0] *= pass.clear_towards_sun(&frame(&uniforms), sun);
+        }
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&uniforms));
         let states = match params.method {
             Method::Octaves => self.facts.octave_states(&params, seconds),
@@ -228,6 +325,7 @@ impl Sky {
             rain,
             flare: uniforms.flares.light[0] > 0.0,
             shadow,
+            sprites,
         });
     }
 
@@ -255,6 +353,9 @@ impl Sky {
             }
         }
         // What lies over the sky, from the farthest to the nearest.
+        if let Some(sprites) = self.sprites.as_ref().filter(|_| prepared.sprites) {
+            sprites.draw(pass, prepared.sky);
+        }
         if let Some(rays) = program.rays.as_ref().filter(|_| prepared.rays) {
             pass.set_pipeline(&rays.overlay);
             pass.set_bind_group(1, rays.group(), &[]);
@@ -276,7 +377,7 @@ impl Sky {
     /// The cloud map of the prepared frame, if its method draws one: it tiles, and level 0 is as fine as it gets.
     ///
     /// Its red channel is the amount of cloud ([`Method::Octaves`], before cover) or the shade ([`Method::Fbm`], with
-    /// the cover in alpha).
+    /// the cover in alpha). That of [`Method::Lit`] is an array, a layer each (see [`crate::lit_map`]); its last one is empty.
     pub fn cloud_map(&self) -> Option<&wgpu::Texture> {
         let (_, program) = self.current()?;
         program.map.texture()
@@ -298,7 +399,12 @@ impl Sky {
     /// Bytes of the textures that only this method reads: its own of the pack and, once they are made, those that it draws.
     pub fn memory_bytes(&self, method: Method) -> u64 {
         let own = self.programs[method as usize].as_ref();
-        self.pack_bytes[method as usize] + own.map_or(0, Program::bytes)
+        let sprites = self
+            .sprites
+            .as_ref()
+            .filter(|_| method == Method::Sprites)
+            .map_or(0, |pass| pass.bytes());
+        self.pack_bytes[method as usize] + own.map_or(0, Program::bytes) + sprites
     }
 
     fn current(&self) -> Option<(Prepared, &Program)> {

@@ -5,13 +5,14 @@ use std::fmt::Write;
 use glam::Vec3;
 use welkin_pack::mapping::{STAR_TILE_SIDE, STAR_TILE_START};
 
+use crate::sprites::instances;
 use crate::{
     Method, SkyModel, clouds, dome, fbm, fbm_map, galaxy, light, lightning, lit, lit_map, octaves,
-    octaves_map, packed, perez, rain, rays, sky, stars, sun, tonemap,
+    octaves_map, packed, perez, rain, rays, sky, sprites, stars, sun, tonemap,
 };
 
 /// The WGSL files in the order in which they are joined.
-const PARTS: [&str; 26] = [
+const PARTS: [&str; 28] = [
     include_str!("../shaders/uniforms.wgsl"),
     include_str!("../shaders/camera.wgsl"),
     include_str!("../shaders/dome.wgsl"),
@@ -30,6 +31,8 @@ const PARTS: [&str; 26] = [
     include_str!("../shaders/fbm_pack.wgsl"),
     include_str!("../shaders/lit.wgsl"),
     include_str!("../shaders/lit_map.wgsl"),
+    include_str!("../shaders/sprites.wgsl"),
+    include_str!("../shaders/ring.wgsl"),
     include_str!("../shaders/shadow.wgsl"),
     include_str!("../shaders/lightning.wgsl"),
     include_str!("../shaders/map.wgsl"),
@@ -99,11 +102,11 @@ fn constants(build: Build) -> String {
     let _ = writeln!(text, "const OUTPUT = {}u;", build.output as u32);
     let _ = writeln!(text, "const SKYBOX = {};", build.skybox);
     let _ = writeln!(text, "const PEREZ = {};", build.sky == SkyModel::Perez);
-    // Packed clouds are hardly ever opaque: to ask costs more than it saves.
+    // Packed clouds are hardly ever opaque, and behind sprites there are none: to ask costs more than it saves.
     let _ = writeln!(
         text,
         "const ASK_OPAQUE = {};",
-        build.method != Method::Packed
+        !matches!(build.method, Method::Packed | Method::Sprites)
     );
     let numbers = [
         ("FAR_DEPTH", if build.reversed_depth { 0.0 } else { 1.0 }),
@@ -147,6 +150,14 @@ fn constants(build: Build) -> String {
         ("LIT_LEAST_STRETCH", lit::LEAST_STRETCH),
         ("LIT_LEAST_UP", lit_map::LEAST_UP),
         ("LIT_STEP_LEVEL", lit_map::STEP_LEVEL),
+        ("SPRITE_RIM_OPAQUE", sprites::RIM_OPAQUE),
+        ("SPRITE_MOST_HALF_SIZE", instances::MOST_HALF_SIZE_M),
+        ("SPRITE_MOST_AWAY", instances::MOST_AWAY_M),
+        ("SPRITE_LOCK", sprites::locks::LOCK),
+        ("SPRITE_NEAR", sprites::locks::NEAR),
+        ("RING_COS", sprites::ring::COSINE),
+        ("RING_HALF_SIDE", sprites::ring::HALF_SIDE),
+        ("RING_BRIGHTEST", sprites::ring::BRIGHTEST),
         ("LIGHTNING_CORE", lightning::CORE),
         ("LIGHTNING_THIN", lightning::THIN),
         ("RAYS_REACH", rays::REACH),
@@ -185,6 +196,7 @@ fn constants(build: Build) -> String {
     ] {
         let _ = writeln!(text, "const {name} = {value}u;");
     }
+    let _ = writeln!(text, "const SPRITES_A_ROW = {}u;", instances::A_ROW);
     let _ = writeln!(text, "const LIT_STEPS = {};", lit_map::STEPS);
     let _ = writeln!(
         text,
@@ -279,6 +291,11 @@ mod tests {
                 "fs_fbm_pack",
                 "fs_lit_map",
                 "fs_lit_level",
+                "vs_sprite",
+                "vs_ring_sprite",
+                "fs_sprite",
+                "vs_ring",
+                "fs_ring",
                 "fs_shadow",
                 "vs_map",
                 "fs_level",
@@ -425,6 +442,21 @@ mod tests {
         );
         assert_same_layout!(module, LitLayerUniforms, axes, place, shape, sun, facing);
         assert_same_layout!(module, LitUniforms, dome, light, towards, ambient, layers);
+        assert_same_layout!(
+            module,
+            SpriteUniforms,
+            sun,
+            colour,
+            ambient,
+            air,
+            fade,
+            flash,
+            flash_place
+        );
+        assert_same_layout!(module, SpriteView, clip_x, clip_y, clip_z, clip_w, viewer);
+        assert_same_layout!(module, SpriteBlock, origin, slot);
+        assert_same_layout!(module, RingSet, place, span);
+        assert_same_layout!(module, RingUniforms, used, next, walls, sides);
         assert_same_layout!(module, ShadowUniforms, layers);
         assert_same_layout!(module, LightningUniforms, place, light);
         assert_same_layout!(module, RayUniforms, sun, right, up, bright, dark);
@@ -444,7 +476,7 @@ mod tests {
         assert_same_layout!(module, TonemapUniforms, display);
         assert_same_layout!(
             module, Uniforms, camera, sky, perez, sun, stars, galaxy, skybox, clouds, packed,
-            octaves, fbm, lit, shadow, lightning, rays, rain, flares, tonemap
+            octaves, fbm, lit, sprites, shadow, lightning, rays, rain, flares, tonemap
         );
         assert_eq!(
             size_of::<Uniforms>() % 16,

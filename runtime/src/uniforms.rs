@@ -300,6 +300,76 @@ pub struct FlareUniforms {
     pub cells: [[f32; 4]; 6],
 }
 
+/// Clouds of sprites: see shaders/sprites.wgsl for what each component holds.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct SpriteUniforms {
+    /// xyz: unit direction towards sun or moon; w: contrast of the sheet's relief.
+    pub sun: [f32; 4],
+    /// rgb: the most light of sun or moon; w: share of it where a group faces away.
+    pub colour: [f32; 4],
+    /// rgb: factor on the colour levels; w: share of `colour` where a group faces sun or moon.
+    pub ambient: [f32; 4],
+    /// x: extinction at sea level; y: 1 / scale height; z: opacity; w: how much darker bases are.
+    pub air: [f32; 4],
+    /// x: 1 / width of the rim of sight; y: its end; z: 1 / width of the change to billboards; w: its end.
+    pub fade: [f32; 4],
+    /// rgb: light of a flash where it strikes.
+    pub flash: [f32; 4],
+    /// xyz: from the viewer to the flash; w: 1 / its reach.
+    pub flash_place: [f32; 4],
+}
+
+/// A viewpoint that sprites are drawn for, in a buffer of its own: see shaders/sprites.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct SpriteView {
+    /// Dot of xyz with a place gives its clip x.
+    pub clip_x: [f32; 4],
+    /// The same for y.
+    pub clip_y: [f32; 4],
+    /// The same for z, plus w.
+    pub clip_z: [f32; 4],
+    /// The same as x for w.
+    pub clip_w: [f32; 4],
+    /// x: height above the sea; y: a pixel in radians; z: texels a side of a cell.
+    pub viewer: [f32; 4],
+}
+
+/// A block of sprites, in a buffer of its own.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct SpriteBlock {
+    /// xyz: from the viewpoint to its corner; w: its opacity.
+    pub origin: [f32; 4],
+    /// x: number of its first sprite in the texture; y: log2 of the vertices of each.
+    pub slot: [u32; 4],
+}
+
+/// One of two rings that are cross-faded: see shaders/ring.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct RingSet {
+    /// xyz: from the viewer to the middle of the ring; w: its share.
+    pub place: [f32; 4],
+    /// x: tangent of the elevation at the upper edge; y: 1 / (that less the lower edge's); z: 1 / width of a picture.
+    pub span: [f32; 4],
+}
+
+/// The ring of impostors, in a buffer of its own.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct RingUniforms {
+    /// The ring in use.
+    pub used: RingSet,
+    /// The one that it fades to.
+    pub next: RingSet,
+    /// x: radius; y, z: tangents at the lower and the upper edge of what is drawn.
+    pub walls: [f32; 4],
+    /// Of each side, from the north to the east: outward normal (east, south), and along it, clockwise.
+    pub sides: [[f32; 4]; 8],
+}
+
 /// The last step.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -336,6 +406,8 @@ pub struct Uniforms {
     pub fbm: FbmUniforms,
     /// Clouds of the lit method.
     pub lit: LitUniforms,
+    /// Clouds of the sprites method.
+    pub sprites: SpriteUniforms,
     /// Shadows of the lit method's clouds.
     pub shadow: ShadowUniforms,
     /// A flash of lightning.

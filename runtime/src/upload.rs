@@ -1,11 +1,12 @@
 //! Textures of a pack on the device.
 
-use welkin_pack::{Format, Pack, Role, Texture};
+use welkin_pack::{Format, Pack, Role, Shape, Texture};
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
+use crate::layouts::array_layers;
 use crate::{SkyError, frame};
 
-/// Uploads the texture of a role with all its levels.
+/// Uploads the texture of a role with all its levels; an array gets what [`array_layers`] adds, as zeros.
 ///
 /// # Errors
 /// [`SkyError::MissingTexture`], [`SkyError::TextureTooLarge`].
@@ -18,12 +19,16 @@ pub(crate) fn upload(
     let texture = frame::texture(pack, role)?;
     refuse_too_large(role, texture, device.limits().max_texture_dimension_2d)?;
     let (width, height) = (texture.width, texture.height);
+    let layers = match texture.shape {
+        Shape::Array => array_layers(texture.layers),
+        Shape::D2 | Shape::Cube => texture.layers,
+    };
     let descriptor = wgpu::TextureDescriptor {
         label: Some(role.name()),
         size: wgpu::Extent3d {
             width,
             height,
-            depth_or_array_layers: texture.layers,
+            depth_or_array_layers: layers,
         },
         mip_level_count: texture.levels.len() as u32,
         sample_count: 1,
@@ -32,7 +37,12 @@ pub(crate) fn upload(
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     };
-    let bytes = texture.levels.concat();
+    let mut bytes = Vec::new();
+    for level in &texture.levels {
+        let end = bytes.len() + level.len() / texture.layers as usize * layers as usize;
+        bytes.extend_from_slice(level);
+        bytes.resize(end, 0);
+    }
     Ok(device.create_texture_with_data(queue, &descriptor, TextureDataOrder::MipMajor, &bytes))
 }
 

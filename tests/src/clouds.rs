@@ -39,7 +39,7 @@ impl Inputs<'_> {
 /// How many channels of clouds or of a map a method reads in a place.
 pub fn reads(method: Method, uniforms: &Uniforms) -> usize {
     match method {
-        Method::Packed => 4,
+        Method::Packed | Method::Sprites => 4,
         Method::Octaves => 5,
         Method::Fbm => 3,
         Method::Lit => lit::reads(&uniforms.lit),
@@ -51,6 +51,7 @@ pub fn reads(method: Method, uniforms: &Uniforms) -> usize {
 pub fn layer(method: Method, inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     match method {
         Method::Packed => packed::layer(inputs, direction, narrowing),
+        Method::Sprites => packed::upper_layer(inputs, direction, narrowing),
         Method::Octaves => octaves::layer(inputs, direction, narrowing),
         Method::Fbm => fbm::layer(inputs, direction, narrowing),
         Method::Lit => lit::layer(inputs, direction, narrowing),

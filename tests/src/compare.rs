@@ -41,6 +41,14 @@ pub fn difference(expected: &[Vec3], actual: &[Vec3], allowed: impl Fn(f32) -> f
     }
 }
 
+/// Compares pictures in units of what each pixel may differ by: 1 is just allowed.
+pub fn in_bounds([expected, actual]: [&[Vec3]; 2], bounds: &[Vec3]) -> Difference {
+    let scaled = |picture: &[Vec3]| -> Vec<Vec3> {
+        picture.iter().zip(bounds).map(|(p, b)| *p / *b).collect()
+    };
+    difference(&scaled(expected), &scaled(actual), |_| 1.0)
+}
+
 /// Writes expected | difference times 16 | actual as a PNG into target/, and gives its path.
 ///
 /// # Panics

@@ -62,7 +62,7 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     let [photo, photo_x, photo_y, photo_level] = packed.photo;
     let [detail, detail_x, detail_y, detail_level] = packed.detail;
     let [cos, sin, noise_x, noise_y] = packed.noise;
-    let [noise_level, upper_level, ..] = packed.levels;
+    let noise_level = packed.levels[0];
     let turned = Vec2::new(cos, sin).rotate(hit.plane);
     let photo_uv = hit.plane * photo + Vec2::new(photo_x, photo_y);
     let detail_uv = hit.plane * detail + Vec2::new(detail_x, detail_y);
@@ -76,16 +76,35 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     let (mut radiance, mut alpha) = (light(clouds, display), soften(alpha, EDGE));
     let upper = packed.shape[3];
     if upper > 0.0 {
-        let [x, y, offset_x, offset_y] = packed.upper;
-        let uv = hit.plane * Vec2::new(x, y) + Vec2::new(offset_x, offset_y);
-        let wisp = inputs.clouds.sample(uv.to_array(), level + upper_level)[1] + inputs.nudges[3];
-        let veil = upper * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, wisp);
+        let veil = veil(inputs, hit.plane, level);
         let over = alpha + veil * (1.0 - alpha);
         let white = light(clouds, Vec3::ONE.lerp(xyz(clouds.tint), samples.tint));
         radiance = white.lerp(radiance, alpha / over.max(1e-4));
         alpha = over;
     }
     (radiance, alpha * clouds::clearness(clouds, direction))
+}
+
+/// Opacity of the thin upper layer.
+fn veil(inputs: &Inputs, plane: Vec2, level: f32) -> f32 {
+    let packed = &inputs.uniforms.packed;
+    let [x, y, offset_x, offset_y] = packed.upper;
+    let uv = plane * Vec2::new(x, y) + Vec2::new(offset_x, offset_y);
+    let sample = inputs
+        .clouds
+        .sample(uv.to_array(), level + packed.levels[1]);
+    let wisp = sample[1] + inputs.nudges[3];
+    packed.shape[3] * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, wisp)
+}
+
+/// The dome behind sprites: the upper layer alone.
+pub fn upper_layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
+    let clouds = &inputs.uniforms.clouds;
+    let hit = dome::intersect(direction);
+    let veil = veil(inputs, hit.plane, clouds::level(&hit, narrowing));
+    let tint = clouds::tint(clouds, inputs.clouds, direction);
+    let white = light(clouds, Vec3::ONE.lerp(xyz(clouds.tint), tint));
+    (white, veil * clouds::clearness(clouds, direction))
 }
 
 #[cfg(test)]

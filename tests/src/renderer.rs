@@ -79,7 +79,7 @@ impl<'a> Twin<'a> {
             nudges: vec![0.0; clouds::reads(params.method, &uniforms)],
             states: match params.method {
                 Method::Octaves => self.facts.octave_states(params, seconds),
-                Method::Packed | Method::Fbm | Method::Lit => Vec::new(),
+                Method::Packed | Method::Fbm | Method::Lit | Method::Sprites => Vec::new(),
             },
             seconds,
         }
@@ -104,7 +104,7 @@ impl Frame<'_> {
     pub fn top_of_map(&self) -> Vec<Image> {
         let (octaves, fbm) = (&self.uniforms.octaves, &self.uniforms.fbm);
         match self.method {
-            Method::Packed => Vec::new(),
+            Method::Packed | Method::Sprites => Vec::new(),
             Method::Octaves => vec![octaves_map::render(octaves, &self.states)],
             Method::Fbm => vec![fbm_map::render(fbm, &self.packed_octaves())],
             Method::Lit => lit_map::render(&self.uniforms.lit, &self.twin.layers),
@@ -119,7 +119,7 @@ impl Frame<'_> {
     /// What a texel of level 0 of each layer of the map may be off by in each channel: at most, and on average, in bytes.
     pub fn map_allowance(&self) -> Vec<([f32; 4], [f32; 4])> {
         match self.method {
-            Method::Packed => Vec::new(),
+            Method::Packed | Method::Sprites => Vec::new(),
             Method::Octaves => vec![octaves_map::allowance(&self.uniforms.octaves, &self.states)],
             Method::Fbm => vec![fbm_map::allowance(
                 &self.uniforms.fbm,
@@ -132,7 +132,7 @@ impl Frame<'_> {
     /// Numbers about the channels of the map's layers, put into the order of the reads; 0 for what is not read of a map.
     pub fn in_order_of_reads(&self, layers: &[[f32; 4]]) -> Vec<f32> {
         let ordered = |[r, g, b, a]: [f32; 4]| match self.method {
-            Method::Packed => Vec::new(),
+            Method::Packed | Method::Sprites => Vec::new(),
             Method::Octaves => vec![g, a, r, b, r],
             Method::Fbm => vec![r, a, g],
             Method::Lit => vec![r, b, a],

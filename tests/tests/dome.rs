@@ -113,7 +113,7 @@ fn the_mesh_draws_the_same_picture_as_the_triangle_over_the_screen() {
     let mut screen = gpu::sky(pack, format);
     let mut mesh = Sky::with_dome_mesh(&gpu.device, &gpu.queue, config, pack, 10.0).expect("a sky");
     let views = [(0.4, 45.0_f32), (0.0, 45.0), (0.74, 90.0)];
-    let cases = Method::ALL
+    let cases = Method::DOMES
         .into_iter()
         .flat_map(|method| views.map(|(time, elevation)| (method, time, elevation)));
     for (method, time, elevation) in cases {

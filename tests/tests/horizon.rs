@@ -18,7 +18,7 @@ const HALF: f32 = 1.0 / 2048.0;
 /// The sun's own disc and glow have an edge in the haze, of 1.4 degrees; the flare is no sky.
 fn skies() -> Vec<SkyParams> {
     let mut skies = Vec::new();
-    for method in Method::ALL {
+    for method in Method::DOMES {
         for sky in SkyModel::ALL {
             // Noon, a sun at 4 degrees, night.
             for time in [0.5, 0.265, 0.0] {

@@ -1,7 +1,9 @@
 //! A frame is a pure function of pack, parameters, camera and seconds.
 
 use welkin_pack::LayerKind;
-use welkin_runtime::{Camera, LitLayer, LitParams, Method, OctaveParams, Sky, SkyModel, SkyParams};
+use welkin_runtime::{
+    Camera, LitLayer, LitParams, Method, OctaveParams, Sky, SkyModel, SkyParams, SpriteParams,
+};
 use welkin_tests::{gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -13,6 +15,11 @@ fn params(method: Method, seconds: f64) -> SkyParams {
         method,
         speed: 1.0,
         time: (seconds / 1e4).rem_euclid(1.0) as f32,
+        // The one thing that goes by what was before: tests/sprites.
+        sprites: SpriteParams {
+            ring_radius_m: 0.0,
+            ..SpriteParams::default()
+        },
         ..SkyParams::default()
     }
 }
@@ -157,8 +164,12 @@ fn what_another_method_is_told_changes_nothing() {
         if method != Method::Fbm {
             other.fbm = welkin_runtime::FbmParams::STORMY;
         }
-        if method != Method::Packed {
+        if !matches!(method, Method::Packed | Method::Sprites) {
             other.upper_layer = 1.0;
+        }
+        if method != Method::Sprites {
+            other.sprites.behind = Method::Fbm;
+            other.sprites.behind_cover = 0.5;
         }
         if method != Method::Lit {
             let layers = [LitLayer::of(LayerKind::Cirrus, 1.0)];

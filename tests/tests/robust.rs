@@ -3,7 +3,7 @@
 use welkin_pack::{LayerKind, Pack, mapping};
 use welkin_runtime::{
     Camera, FbmParams, Lightning, LitLayer, LitParams, Method, OctaveParams, PerezParams,
-    PerezShape, SkyModel, SkyParams, WeatherParams,
+    PerezShape, SkyModel, SkyParams, SpriteParams, WeatherParams,
 };
 use welkin_tests::{gpu, pack};
 
@@ -118,6 +118,14 @@ fn all(method: Method, number: f32) -> SkyParams {
             m: number,
             formation_interval_s: number,
             moon: number,
+        },
+        sprites: SpriteParams {
+            behind: Method::Sprites,
+            behind_cover: number,
+            distance_m: number,
+            ring_radius_m: number,
+            billboards_beyond_m: number,
+            formation: number,
         },
         weather: WeatherParams {
             rays: number,

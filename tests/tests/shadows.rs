@@ -263,7 +263,7 @@ fn there_is_none_without_an_extent_or_another_methods_clouds() {
     let mut sky = gpu::sky(pack::default_pack(), FORMAT);
     assert!(sky.shadow().is_none(), "before the first frame");
     let view = viewer(Vec2::ZERO, Vec3::Y);
-    for method in Method::ALL {
+    for method in Method::DOMES {
         for extent_m in [0.0, -5.0, f32::NAN, 500.0] {
             let params = SkyParams {
                 method,

@@ -6,7 +6,7 @@
 
 mod mukhina;
 mod report;
-mod scene;
+pub mod scene;
 
 use std::io::{ErrorKind, Write};
 use std::time::Instant;
@@ -22,7 +22,7 @@ use welkin_viewer::timing::FrameTimer;
 
 use crate::cli::{BenchArgs, Protocol};
 use report::{FOUR_SAMPLES, Report, Row, Times};
-use scene::{Scene, scenes};
+use scene::{Scene, scenes, scenes_of_sprites};
 
 /// Frames before the first that counts: shaders get compiled, clocks get up.
 const WARM_UP_FRAMES: u32 = 10;
@@ -77,7 +77,13 @@ fn print<R: serde::Serialize>(
 }
 
 fn report(gpu: &Gpu, pack: &Pack, args: &BenchArgs) -> Result<Report, GpuError> {
-    let scenes = args.methods().into_iter().flat_map(scenes).collect();
+    let scenes = match args.scene {
+        Some(of) => scenes_of_sprites(of, args.ring).into(),
+        None => {
+            let of = |method| scenes(method, args.ring);
+            args.methods().into_iter().flat_map(of).collect()
+        }
+    };
     Ok(Report {
         adapter: gpu.adapter.clone(),
         clock: clock(gpu),
@@ -150,7 +156,7 @@ fn time(
     let start = Instant::now();
     if let Subject::Sky(sky, scene) = subject {
         let size = [view.texture().width(), view.texture().height()];
-        let (params, camera) = (scene.params(frame), scene.camera(size));
+        let (params, camera) = (scene.params(frame), scene.camera(size, frame));
         let seconds = f64::from(frame) * FRAME_S;
         sky.prepare(&gpu.queue, &mut encoder, &params, &camera, seconds);
     }
@@ -166,7 +172,8 @@ fn row(name: String, subject: &Subject, times: &Times) -> Row {
     match subject {
         Subject::Sky(sky, scene) => {
             let method = scene.method();
-            Row::of_sky(name, method.name(), sky.memory_bytes(method), times)
+            let row = Row::of_sky(name, method.name(), sky.memory_bytes(method), times);
+            row.with_sprites(sky.sprites_drawn())
         }
         Subject::Reference(_) => Row::of_reference(name, times),
     }

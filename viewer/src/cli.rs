@@ -6,6 +6,7 @@ mod clouds;
 mod layers;
 mod lit;
 mod render;
+mod sprites;
 mod values;
 mod weather;
 

@@ -2,7 +2,7 @@
 
 use anyhow::{Result, ensure};
 use welkin_pack::{Pack, Role};
-use welkin_runtime::{Oktas, SkyParams};
+use welkin_runtime::{Method, Oktas, SkyError, SkyParams};
 use welkin_viewer::gpu::Gpu;
 use welkin_viewer::headless::render;
 use welkin_viewer::save::{save, target_for};
@@ -22,6 +22,12 @@ pub fn run(args: &RenderArgs) -> Result<()> {
         args.pack.display()
     );
     let mut view = args.view();
+    ensure!(
+        view.params.method != Method::Sprites || pack.field().is_some(),
+        "{}: {}",
+        args.pack.display(),
+        SkyError::MissingField
+    );
     if let Some(oktas) = args.sky.oktas {
         view.params.cover = cover_for_oktas(&pack, &view.params, oktas)?;
     }

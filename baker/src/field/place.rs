@@ -7,10 +7,11 @@ use welkin_pack::field::{Category, CloudBox, Sprite, rounded_rotation};
 
 use super::snapped;
 use crate::settings::BoxSettings;
+use crate::sprites::FLOOR;
 use crate::stream::Stream;
 
-/// How far the flat edge of the flat-bottomed picture is below its middle, as a share of its height.
-const FLAT_EDGE: f32 = 0.1;
+/// How far the flat edge of the flat-bottomed picture is below its middle, as a share of its height: the sheet counts in half heights.
+const FLAT_EDGE: f32 = -0.5 * FLOOR;
 
 /// How far below its middle another picture is still dense.
 const DENSE_EDGE: f32 = 0.3;

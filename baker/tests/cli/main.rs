@@ -14,9 +14,11 @@ mod recipe;
 mod streams;
 
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
+use std::time::Duration;
 
 /// The recipe of tests that need some pack and not a beautiful one.
 const SMALL_RECIPE: &str = "name = \"small\"\n[clouds]\nsize = 64\n[stars]\nsize = 64\ncount = 20\n\
@@ -36,8 +38,17 @@ struct Run {
     stderr: String,
 }
 
+/// A program that a test has just written may still be open for writing in a child that another test's thread is about to
+/// start: such a one is tried again.
 fn run(command: &mut Command) -> Run {
-    Run::from(command.output().expect("the program starts"))
+    loop {
+        match command.output() {
+            Err(busy) if busy.kind() == ErrorKind::ExecutableFileBusy => {
+                std::thread::sleep(Duration::from_millis(10));
+            }
+            started => return Run::from(started.expect("the program starts")),
+        }
+    }
 }
 
 impl From<Output> for Run {

@@ -33,6 +33,7 @@ pub struct Row {
     pub p90_ms: f64,
     pub ratio: f64,
     pub memory_bytes: Option<u64>,
+    pub sprites: Option<[u64; 2]>,
 }
 
 /// The times of a row's frames, in milliseconds.
@@ -93,6 +94,15 @@ impl Row {
             p90_ms: frame.p90,
             ratio: f64::NAN,
             memory_bytes: None,
+            sprites: None,
+        }
+    }
+
+    /// With the sprites of its last frame, on the screen and into the ring, if there are any.
+    pub fn with_sprites(self, drawn: [u64; 2]) -> Row {
+        Row {
+            sprites: (drawn != [0, 0]).then_some(drawn),
+            ..self
         }
     }
 }
@@ -117,8 +127,8 @@ impl Report {
              {} frames after {} to warm up\n{clock}, in milliseconds, medians but for p10 and p90\n\
              map: passes off screen; dome: the pass on the screen; frame: both; cpu: work before them; \
              MB: textures of the method alone\n\
-             alone: no sun, stars, flare, skybox or upper layer\n\n\
-             {:<26}{:>8}{:>8}{:>9}{:>9}{:>9}{:>17}{:>8}{:>8}\n",
+             alone: no sun, stars, flare, skybox or upper layer; sprites: level flight, ground in the lower half\n\n\
+             {:<34}{:>8}{:>8}{:>9}{:>9}{:>9}{:>17}{:>8}{:>8}\n",
             self.adapter,
             self.frames,
             self.warm_up_frames,
@@ -134,6 +144,12 @@ impl Report {
         );
         for row in &self.passes {
             text += &row.line();
+        }
+        for (row, [screen, ring]) in self.passes.iter().filter_map(|r| Some((r, r.sprites?))) {
+            text += &format!(
+                "{}: {screen} sprites on the screen, {ring} into the ring, in the last frame\n",
+                row.name
+            );
         }
         text
     }
@@ -156,7 +172,7 @@ impl Row {
     fn line(&self) -> String {
         let mb = |bytes: u64| format!("{:.2}", bytes as f64 / 1e6);
         format!(
-            "{:<26}{:>8}{:>8.3}{:>9.3}{:>9.3}{:>9.3}{:>16.2}x{:>8}{:>8}\n",
+            "{:<34}{:>8}{:>8.3}{:>9.3}{:>9.3}{:>9.3}{:>16.2}x{:>8}{:>8}\n",
             self.name,
             ms(self.map_ms),
             self.dome_ms,

@@ -3,10 +3,13 @@
 //! The camera looks up far enough that sky fills the whole frame, and towards the sun, so that the sun and its
 //! flare are paid for.
 
+use clap::ValueEnum;
 use welkin_pack::LayerKind;
 use welkin_runtime::params::{MAX_LAYERS, MAX_OCTAVES};
+use welkin_runtime::sprites::ring;
 use welkin_runtime::{
-    Camera, LitLayer, LitParams, Method, OctaveParams, SkyModel, SkyParams, WeatherParams,
+    Camera, LitLayer, LitParams, Method, OctaveParams, SkyModel, SkyParams, SpriteParams,
+    WeatherParams,
 };
 
 /// With this the lower edge of the frame is 20 degrees above the horizon at its middle, and above it
@@ -32,12 +35,17 @@ pub struct Scene {
     pub label: String,
     params: SkyParams,
     azimuth_deg: f32,
+    elevation_deg: f32,
+    /// Metres up.
+    height_m: f32,
+    /// Metres to the north that the viewer jumps to and fro, each time a ring of impostors is ready.
+    jump_m: f32,
     /// Whether the sun goes to and fro by [`SUN_STEP`].
     sun_moves: bool,
 }
 
-/// The rows of a method.
-pub fn scenes(method: Method) -> Vec<Scene> {
+/// The rows of a method; the ring is of sprites alone.
+pub fn scenes(method: Method, ring_radius_m: f32) -> Vec<Scene> {
     let usual = SkyParams {
         method,
         ..SkyParams::default()
@@ -68,9 +76,97 @@ pub fn scenes(method: Method) -> Vec<Scene> {
             ..scene("alone, sun moves", alone(usual), SOUTH_DEG)
         }),
         Method::Lit => scenes.extend(scenes_of_lit(usual)),
+        Method::Sprites => {
+            let scenes = |of| scenes_of_sprites(of, ring_radius_m);
+            return SpriteScene::ALL.into_iter().flat_map(scenes).collect();
+        }
     }
     scenes
 }
+
+/// A field of clouds by how much of it there is, as in figure 5 of Wang's article.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SpriteScene {
+    /// Two oktas
+    Sparse,
+    /// Five oktas
+    Broken,
+    /// Eight oktas: every sprite of the field
+    Overcast,
+}
+
+impl SpriteScene {
+    /// All of them.
+    pub const ALL: [SpriteScene; 3] = [
+        SpriteScene::Sparse,
+        SpriteScene::Broken,
+        SpriteScene::Overcast,
+    ];
+
+    /// Its name in the table.
+    fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
+    }
+
+    fn cover(self) -> f32 {
+        match self {
+            SpriteScene::Sparse => 0.25,
+            SpriteScene::Broken => 0.625,
+            SpriteScene::Overcast => 1.0,
+        }
+    }
+}
+
+/// The dome without clouds; sprites alone; with the ring; and with a ring that is always being made anew.
+pub fn scenes_of_sprites(of: SpriteScene, ring: f32) -> [Scene; 4] {
+    let usual = SkyParams {
+        method: Method::Sprites,
+        cover: of.cover(),
+        flare: 0.0,
+        ..SkyParams::default()
+    };
+    let sprites = |ring_radius_m: f32| SkyParams {
+        sprites: SpriteParams {
+            distance_m: SPRITE_SIGHT_M,
+            ring_radius_m,
+            ..usual.sprites
+        },
+        ..usual
+    };
+    let among = |label: &str, ring_radius_m: f32, jump_m: f32| Scene {
+        elevation_deg: SPRITE_ELEVATION_DEG,
+        height_m: SPRITE_HEIGHT_M,
+        jump_m,
+        ..scene(
+            &format!("{}, {label}", of.name()),
+            sprites(ring_radius_m),
+            SOUTH_DEG,
+        )
+    };
+    // Just beyond what a ring is good for.
+    let jump = 0.151 * ring;
+    let clear = SkyParams {
+        cover: 0.0,
+        ..sprites(0.0)
+    };
+    [
+        Scene {
+            params: clear,
+            ..among("no clouds", 0.0, 0.0)
+        },
+        among("sprites alone", 0.0, 0.0),
+        among("ring", ring, 0.0),
+        among("ring made anew", ring, jump),
+    ]
+}
+
+/// So far that an overcast of the default field has more than 100,000 sprites on a screen of 16 to 9.
+const SPRITE_SIGHT_M: f32 = 55_000.0;
+/// Frames that a ring takes at that sight: two for each picture, the fade, and one each to begin and to end.
+const RING_FRAMES: u32 = 2 * ring::PICTURES as u32 + ring::FADE_FRAMES + 2;
+/// Level flight below the clouds: the horizon, where most of them are, is in the middle.
+const SPRITE_ELEVATION_DEG: f32 = 0.0;
+const SPRITE_HEIGHT_M: f32 = 300.0;
 
 /// What an iteration of layers costs, and what else only this method or the weather draws.
 fn scenes_of_lit(usual: SkyParams) -> Vec<Scene> {
@@ -120,6 +216,9 @@ fn scene(label: &str, params: SkyParams, azimuth_deg: f32) -> Scene {
         label: label.to_string(),
         params,
         azimuth_deg,
+        elevation_deg: CAMERA_ELEVATION_DEG,
+        height_m: 0.0,
+        jump_m: 0.0,
         sun_moves: false,
     }
 }
@@ -172,14 +271,15 @@ impl Scene {
         }
     }
 
-    /// The camera of all of its frames.
-    pub fn camera(&self, size: [u32; 2]) -> Camera {
-        Camera::looking(
-            self.azimuth_deg.to_radians(),
-            CAMERA_ELEVATION_DEG.to_radians(),
-            CAMERA_FOV_DEG.to_radians(),
-            size,
-        )
+    /// The camera of one of its frames.
+    pub fn camera(&self, size: [u32; 2], frame: u32) -> Camera {
+        let angles = [self.azimuth_deg, self.elevation_deg, CAMERA_FOV_DEG];
+        let [azimuth_rad, elevation_rad, fov_rad] = angles.map(f32::to_radians);
+        let north_m = self.jump_m * (frame / RING_FRAMES % 2) as f32;
+        Camera {
+            position_m: [0.0, self.height_m, -north_m].into(),
+            ..Camera::looking(azimuth_rad, elevation_rad, fov_rad, size)
+        }
     }
 }
 
@@ -187,11 +287,15 @@ impl Scene {
 mod tests {
     use super::*;
 
+    fn all_scenes(method: Method) -> Vec<Scene> {
+        scenes(method, 10_000.0)
+    }
+
     #[test]
     fn sky_fills_the_frame_of_the_benchmark_however_wide_it_is() {
-        for scene in Method::ALL.into_iter().flat_map(scenes) {
+        for scene in Method::DOMES.into_iter().flat_map(all_scenes) {
             for width in [100, 133, 178, 400] {
-                let rays = scene.camera([width, 100]).rays();
+                let rays = scene.camera([width, 100], 0).rays();
                 for x in [-1.0, 1.0] {
                     let corner = rays.forward - rays.up + rays.right * x;
                     assert!(corner.y > 0.0, "{} {width}", scene.name());
@@ -203,7 +307,7 @@ mod tests {
     #[test]
     fn every_row_is_of_its_method_by_a_name_of_its_own_and_in_range() {
         for method in Method::ALL {
-            let scenes = scenes(method);
+            let scenes = all_scenes(method);
             assert!(scenes.iter().all(|s| s.method() == method));
             let mut names: Vec<String> = scenes.iter().map(Scene::name).collect();
             names.sort();
@@ -217,8 +321,8 @@ mod tests {
 
     #[test]
     fn alone_leaves_the_clouds_as_they_are_and_nothing_else_on() {
-        for method in Method::ALL {
-            let all = scenes(method);
+        for method in Method::DOMES {
+            let all = all_scenes(method);
             for scene in all.iter().filter(|s| s.label.starts_with("alone")) {
                 let p = scene.params(0);
                 assert!(!p.sun && !p.stars, "{}", scene.name());
@@ -230,7 +334,7 @@ mod tests {
 
     #[test]
     fn octaves_are_timed_for_each_count() {
-        let all = scenes(Method::Octaves);
+        let all = all_scenes(Method::Octaves);
         let counts: Vec<u32> = all[4..].iter().map(|s| s.params(0).octaves.count).collect();
         assert_eq!(counts, [1, 2, 3, 4, 5, 6, 7, 8]);
     }
@@ -269,7 +373,7 @@ mod tests {
 
     #[test]
     fn layers_are_timed_one_three_and_six() {
-        let all = scenes(Method::Lit);
+        let all = all_scenes(Method::Lit);
         let counts = |label: &str| {
             let scene = all.iter().find(|s| s.label == label).unwrap();
             let layers = scene.params(0).lit.layers;
@@ -280,8 +384,26 @@ mod tests {
     }
 
     #[test]
+    fn fields_are_timed_with_and_without_the_ring_and_while_it_is_made_anew() {
+        for of in SpriteScene::ALL {
+            let [_, alone, ring, anew] = scenes_of_sprites(of, 10_000.0);
+            let radius = |scene: &Scene| scene.params(0).sprites.ring_radius_m;
+            assert_eq!(radius(&alone), 0.0);
+            assert!(radius(&ring) > 0.0 && radius(&ring) == radius(&anew));
+            let north = |frame: u32| -anew.camera([160, 90], frame).position_m.z;
+            // Each ring that is ready is stale.
+            assert_eq!(north(RING_FRAMES - 1), north(0));
+            assert!(north(RING_FRAMES) - north(0) > 0.15 * radius(&anew));
+            assert_eq!(north(2 * RING_FRAMES), north(0));
+            assert_eq!(alone.camera([160, 90], 24), alone.camera([160, 90], 0));
+        }
+        let covers = SpriteScene::ALL.map(SpriteScene::cover);
+        assert_eq!(covers.map(|cover| cover * 8.0), [2.0, 5.0, 8.0]);
+    }
+
+    #[test]
     fn only_the_row_of_a_moving_sun_moves_it_and_far_enough_for_octaves_to_be_packed_anew() {
-        for scene in Method::ALL.into_iter().flat_map(scenes) {
+        for scene in Method::ALL.into_iter().flat_map(all_scenes) {
             let times = [0, 1].map(|frame| scene.params(frame).time);
             if scene.label != "alone, sun moves" {
                 assert_eq!(times[0], times[1]);

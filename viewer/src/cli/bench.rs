@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use welkin_runtime::Method;
+use welkin_runtime::{Method, SpriteParams};
 
+use super::sprites::ring_radius_m;
 use super::values::size;
+use crate::bench::scene::SpriteScene;
 
 #[derive(Debug, Args)]
 pub struct BenchArgs {
@@ -16,6 +18,12 @@ pub struct BenchArgs {
     /// Whose skies are timed [default: packed, or the protocol's]
     #[arg(long, value_enum)]
     pub method: Option<Methods>,
+    /// Which field of clouds of --method sprites is timed [default: all of them]
+    #[arg(long, value_enum)]
+    pub scene: Option<SpriteScene>,
+    /// Radius of the ring of impostors of --method sprites in metres, 4000 to 60000
+    #[arg(long, value_name = "M", value_parser = ring_radius_m, default_value_t = SpriteParams::default().ring_radius_m, allow_negative_numbers = true)]
+    pub ring: f32,
     /// Measure as a paper did, which sets method and sizes, and print its figures beside
     #[arg(long, value_enum)]
     pub protocol: Option<Protocol>,
@@ -54,6 +62,8 @@ pub enum Methods {
     Fbm,
     /// Mukhina and Bezgodov: lit layers, with the cost of one and six, of shadows, rays and rain
     Lit,
+    /// Wang: clouds in space, with and without the ring of impostors
+    Sprites,
     /// Every method, in one table
     All,
 }
@@ -66,6 +76,7 @@ impl Methods {
             Methods::Octaves => vec![Method::Octaves],
             Methods::Fbm => vec![Method::Fbm],
             Methods::Lit => vec![Method::Lit],
+            Methods::Sprites => vec![Method::Sprites],
             Methods::All => Method::ALL.to_vec(),
         }
     }
@@ -109,6 +120,12 @@ impl BenchArgs {
     /// # Errors
     /// Which option it is, and what the protocol says.
     pub fn refuse_others(&self) -> Result<(), String> {
+        if self.scene.is_some() && self.method != Some(Methods::Sprites) {
+            return Err(
+                "--scene belongs to --method sprites; leave it out or say --method sprites"
+                    .to_string(),
+            );
+        }
         if self.protocol.is_none() {
             return Ok(());
         }
@@ -152,8 +169,24 @@ mod tests {
         for method in Method::ALL {
             assert_eq!(of(&["--method", method.name()]), [method]);
         }
-        let error = read(&["--method", "sprites"]).unwrap_err();
-        assert!(error.contains("packed, octaves, fbm, lit, all"), "{error}");
+        let error = read(&["--method", "volumes"]).unwrap_err();
+        assert!(
+            error.contains("packed, octaves, fbm, lit, sprites, all"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_scene_is_of_sprites() {
+        let words = ["--method", "sprites", "--scene", "overcast"];
+        assert_eq!(read(&words).unwrap().scene, Some(SpriteScene::Overcast));
+        let error = read(&["--scene", "sparse"]).unwrap_err();
+        assert!(
+            error.contains("--scene belongs to --method sprites"),
+            "{error}"
+        );
+        let error = read(&["--method", "sprites", "--scene", "foggy"]).unwrap_err();
+        assert!(error.contains("sparse, broken, overcast"), "{error}");
     }
 
     #[test]

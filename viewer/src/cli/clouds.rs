@@ -9,7 +9,7 @@ use super::values::{formation_interval_s, octaves, three_units, unit};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Clouds of one method")]
 pub struct CloudArgs {
-    /// packed: amount of a thin upper layer, 0 (none) to 1
+    /// packed, sprites: amount of a thin upper layer, 0 (none) to 1
     #[arg(long, value_name = "U", default_value_t = SkyParams::default().upper_layer, value_parser = unit, allow_negative_numbers = true)]
     pub upper: f32,
     /// octaves: how many are summed, 1 to 8
@@ -73,7 +73,7 @@ pub enum Palette {
 
 /// The options of [`CloudArgs`], and the methods that know them.
 pub const OWNERS: [(&str, &[Method]); 8] = [
-    ("upper", &[Method::Packed]),
+    ("upper", &[Method::Packed, Method::Sprites]),
     ("octaves", &[Method::Octaves]),
     ("formation_interval", &[Method::Octaves, Method::Lit]),
     ("domes", &[Method::Octaves]),

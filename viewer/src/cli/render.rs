@@ -9,6 +9,7 @@ use welkin_viewer::headless::View;
 use super::clear_sky::ClearSkyArgs;
 use super::clouds::{CloudArgs, OWNERS};
 use super::lit::{self, LitArgs};
+use super::sprites::{self, SpriteArgs};
 use super::values::{azimuth_deg, elevation_deg, fov_deg, oktas, place_m, seconds, size, unit};
 use super::weather::WeatherArgs;
 use super::{belongs, is_given};
@@ -40,6 +41,8 @@ pub struct RenderArgs {
     #[command(flatten)]
     pub lit: LitArgs,
     #[command(flatten)]
+    pub sprites: SpriteArgs,
+    #[command(flatten)]
     pub weather: WeatherArgs,
     #[command(flatten)]
     pub camera: CameraArgs,
@@ -56,6 +59,8 @@ pub enum MethodName {
     Fbm,
     /// Mukhina and Bezgodov: layers of three kinds, lit by sun and moon
     Lit,
+    /// Wang: clouds in space, made of sprites
+    Sprites,
 }
 
 impl From<MethodName> for Method {
@@ -65,6 +70,7 @@ impl From<MethodName> for Method {
             MethodName::Octaves => Method::Octaves,
             MethodName::Fbm => Method::Fbm,
             MethodName::Lit => Method::Lit,
+            MethodName::Sprites => Method::Sprites,
         }
     }
 }
@@ -170,6 +176,7 @@ impl RenderArgs {
             octaves: self.clouds.octave_params(interval(Method::Octaves)),
             fbm: self.clouds.fbm_params(),
             lit: self.lit.params(interval(Method::Lit)),
+            sprites: self.sprites.params(),
             weather: self.weather.params(self.at),
             shadow_extent_m: self.lit.shadow_extent_m(),
             sun: !self.light.no_sun,
@@ -227,10 +234,11 @@ impl RenderArgs {
 
 /// The options that some methods know and others do not, and the methods that know them.
 fn owners() -> impl Iterator<Item = (&'static str, &'static [Method])> {
-    let lit: &[Method] = &[Method::Lit];
+    let (lit, sprites): (&[Method], &[Method]) = (&[Method::Lit], &[Method::Sprites]);
     OWNERS
         .into_iter()
         .chain(lit::OPTIONS.map(|option| (option, lit)))
+        .chain(sprites::OPTIONS.map(|option| (option, sprites)))
 }
 
 impl CameraArgs {

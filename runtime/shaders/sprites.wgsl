@@ -1,0 +1,240 @@
+// Clouds of sprites in space. Theory and CPU part: sprites.rs and the files in sprites/.
+struct SpriteUniforms {
+    sun: vec4f,     // xyz: unit direction towards sun or moon; w: contrast of the sheet's relief
+    colour: vec4f,  // rgb: the most light of sun or moon; w: share of it where a group faces away
+    ambient: vec4f, // rgb: factor on the colour levels; w: share of `colour` where a group faces sun or moon
+    air: vec4f,     // x: extinction at sea level, 1 / m; y: 1 / scale height, 1 / m; z: opacity; w: how much darker bases are
+    fade: vec4f,    // x: 1 / width of the rim of sight, 1 / m; y: its end, m; z: 1 / width of the change to billboards; w: its end, m
+    flash: vec4f,   // rgb: light of a flash of lightning where it strikes; w: not used
+    flash_place: vec4f, // xyz: from the viewer to the flash, m; w: 1 / its reach, 1 / m
+}
+
+// A viewpoint: the camera, or the middle of the ring towards one of its sides.
+struct SpriteView {
+    clip_x: vec4f, // dot of xyz with a place gives its clip x
+    clip_y: vec4f,
+    clip_z: vec4f, // the same, plus w
+    clip_w: vec4f,
+    viewer: vec4f, // x: height above the sea, m; y: a pixel in the middle of the picture, radians; z: texels a side of a cell
+}
+
+// A block of 16 square kilometres.
+struct SpriteBlock {
+    origin: vec4f, // xyz: from the viewpoint to its north-west corner at the height of the field's sea level, m; w: its opacity
+    slot: vec4u,   // x: number of its first sprite in the texture; y: log2 of the vertices of each, 3 for outlines, 2 for boxes
+}
+
+// Outlines of the sheet's cells: eight vertices each, two a vector.
+struct SpriteOutlines {
+    vertices: array<vec4f, 64>,
+}
+
+@group(1) @binding(3) var sheet_texture: texture_2d<f32>;
+@group(1) @binding(4) var amounts_texture: texture_2d<f32>;
+@group(1) @binding(5) var<uniform> sprite_view: SpriteView;
+@group(1) @binding(6) var<uniform> sprite_block: SpriteBlock;
+@group(1) @binding(10) var<uniform> sprite_outlines: SpriteOutlines;
+@group(1) @binding(11) var instances_texture: texture_2d<u32>;
+
+struct SpriteInstance {
+    centre: vec4f,      // xyz: place in its block, m; w: turn, radians
+    size: vec4f,        // xy: half width and half height, m; zw: shares of the cloud's height at its lower and upper edge
+    from_group: vec4f,  // xyz: from the middle of its shading group, m; w: 1 if it lies flat
+    from_cloud: vec4f,  // xyz: from the middle of its cloud, m; w: the cloud's radius, m
+    low: vec4f,         // colour level at its lower edge, and opacity
+    high: vec4f,        // the same at its upper edge
+    names: vec4u,       // x: cell of the sheet; y, z: low and high byte of its cloud's number; w: 1 for a whole cloud's billboard
+    lock: vec4f,        // xyz: the way it faces for ever; w: 1 if it does
+}
+
+// A sprite of the block. Read from a texture, since instances of a few vertices each leave most of a GPU's lanes idle.
+fn sprite_instance(number: u32) -> SpriteInstance {
+    let place = sprite_block.slot.x + number;
+    let texel = vec2u((place % SPRITES_A_ROW) * 4u, place / SPRITES_A_ROW);
+    let a = textureLoad(instances_texture, texel, 0);
+    let b = textureLoad(instances_texture, texel + vec2u(1u, 0u), 0);
+    let c = textureLoad(instances_texture, texel + vec2u(2u, 0u), 0);
+    let d = textureLoad(instances_texture, texel + vec2u(3u, 0u), 0);
+    return SpriteInstance(
+        bitcast<vec4f>(a),
+        vec4f(SPRITE_MOST_HALF_SIZE * unpack2x16unorm(b.x), unpack2x16unorm(b.y)),
+        vec4f(unpack2x16snorm(b.z), unpack2x16snorm(b.w)) * vec4f(vec3f(SPRITE_MOST_AWAY), 1.0),
+        SPRITE_MOST_AWAY * vec4f(unpack2x16snorm(c.x), unpack2x16snorm(c.y)),
+        unpack4x8unorm(c.z),
+        unpack4x8unorm(c.w),
+        vec4u(d.x & 255u, (d.x >> 8u) & 255u, (d.x >> 16u) & 255u, d.x >> 24u),
+        unpack4x8snorm(d.y),
+    );
+}
+
+struct SpriteVaryings {
+    @builtin(position) position: vec4f,
+    @location(0) uv: vec2f,
+    @location(1) @interpolate(flat) level: f32,
+    @location(2) light: vec4f,  // rgb: colour at a grey of one half, as the target has it; w: opacity
+    @location(3) relief: vec3f, // what a grey of one more adds
+}
+
+// Listing 1 of the article: a cloud forms from its middle to its edge. `place` is 0 in the middle, 1 on the edge.
+fn sprite_formed(amount: f32, place: f32) -> f32 {
+    let core = min(2.0 * amount, 1.0);
+    let edges = 1.0 - max(2.0 * amount - 1.0, 0.0);
+    return clamp(core - edges * place, 0.0, 1.0);
+}
+
+fn sprite_amount(low: u32, high: u32) -> f32 {
+    return textureLoad(amounts_texture, vec2u(low, high), 0).r;
+}
+
+// What the air between viewer and place leaves of light: its density falls exponentially with height.
+fn sprite_clearness(place: vec3f, distance: f32) -> f32 {
+    let air = uniforms.sprites.air;
+    let rise = place.y * air.y;
+    let mean = select((1.0 - exp(-rise)) / rise, 1.0 - 0.5 * rise, abs(rise) < 1e-3);
+    return exp(-air.x * exp(-max(sprite_view.viewer.x, 0.0) * air.y) * mean * distance);
+}
+
+// The sprite's right and up, in the order of its own turn; it faces the viewer, or as it is locked, or up.
+fn sprite_axes(instance: SpriteInstance, facing: vec3f) -> mat2x3f {
+    let turn = vec2f(cos(instance.centre.w), sin(instance.centre.w));
+    if instance.from_group.w > 0.5 {
+        return mat2x3f(vec3f(turn.x, 0.0, -turn.y), vec3f(-turn.y, 0.0, -turn.x));
+    }
+    let across = vec3f(facing.z, 0.0, -facing.x);
+    let width = length(across);
+    let right = select(vec3f(1.0, 0.0, 0.0), across / width, width > 1e-4);
+    let up = cross(facing, right);
+    return mat2x3f(right * turn.x + up * turn.y, up * turn.x - right * turn.y);
+}
+
+fn sprite_light(instance: SpriteInstance, offset: vec3f, direction: vec3f, up: f32) -> vec3f {
+    let own = uniforms.sprites;
+    let share = mix(instance.size.z, instance.size.w, up);
+    let ambient = mix(instance.low.rgb, instance.high.rgb, up) * own.ambient.rgb * (1.0 - own.air.w * (1.0 - share));
+    let from_group = instance.from_group.xyz + offset;
+    let towards = dot(from_group, own.sun.xyz) / max(length(from_group), 1.0);
+    let sun = own.colour.rgb * mix(own.colour.w, own.ambient.w, 0.5 + 0.5 * towards);
+    return ambient + sun * mix(vec3f(1.0), uniforms.clouds.tint.rgb, cloud_tint(direction));
+}
+
+fn sprite_flash(place: vec3f) -> vec3f {
+    let away = (place - uniforms.sprites.flash_place.xyz) * uniforms.sprites.flash_place.w;
+    return uniforms.sprites.flash.rgb * exp2(-dot(away, away));
+}
+
+// A vertex of a cell's outline; x and y in half sides, y up.
+fn sprite_outline(cell: u32, vertex: u32) -> vec2f {
+    let number = cell * 8u + vertex;
+    let two = sprite_outlines.vertices[number >> 1u];
+    return select(two.xy, two.zw, (number & 1u) == 1u);
+}
+
+// A corner of the outline, or of the box around it, anticlockwise.
+fn sprite_corner(cell: u32, corner: u32) -> vec2f {
+    if sprite_block.slot.y == 3u {
+        return sprite_outline(cell, corner);
+    }
+    let right = corner == 1u || corner == 2u;
+    let up = corner >= 2u;
+    return vec2f(sprite_outline(cell, select(4u, 0u, right)).x, sprite_outline(cell, select(5u, 1u, up)).y);
+}
+
+fn sprite_vertex(index: u32) -> SpriteVaryings {
+    let instance = sprite_instance(index >> sprite_block.slot.y);
+    let own = uniforms.sprites;
+    let middle = sprite_block.origin.xyz + instance.centre.xyz;
+    let distance = max(length(middle), 1e-3);
+    let radius = max(instance.size.x, instance.size.y);
+    let to_viewer = -middle / distance;
+
+    // In the cloud: facing and opacity of a sprite that is near or was passed.
+    let locked = instance.lock.w * (1.0 - smoothstep(SPRITE_LOCK, 1.0, distance / radius));
+    let meets = dot(instance.lock.xyz, to_viewer);
+    let facing = normalize(mix(to_viewer, select(-instance.lock.xyz, instance.lock.xyz, meets >= 0.0), locked));
+    let lies = instance.from_group.w > 0.5;
+    let before = select(dot(facing, -middle), distance, lies) / radius;
+    var opacity = mix(1.0, max(meets, 0.0), locked) * smoothstep(0.0, SPRITE_NEAR, before);
+
+    // Far away: the rim of sight, where clouds take the colour of what is behind them before they go, and the change from sprites to one billboard a cloud.
+    let rim = clamp((own.fade.y - distance) * own.fade.x, 0.0, 1.0);
+    opacity *= min(SPRITE_RIM_OPAQUE * rim, 1.0);
+    let near = clamp((own.fade.w - distance) * own.fade.z, 0.0, 1.0);
+    opacity *= select(near, 1.0 - near, instance.names.w == 1u);
+
+    let amount = sprite_amount(instance.names.y, instance.names.z);
+    opacity *= sprite_block.origin.w * own.air.z;
+    if opacity * amount <= 0.0 {
+        return SpriteVaryings(vec4f(0.0, 0.0, 0.0, -1.0), vec2f(0.0), 0.0, vec4f(0.0), vec3f(0.0));
+    }
+
+    let corner = sprite_corner(instance.names.x, index & ((1u << sprite_block.slot.y) - 1u));
+    let axes = sprite_axes(instance, facing);
+    let offset = axes * (corner * instance.size.xy);
+    let place = middle + offset;
+    let away = length(place);
+    let direction = place / max(away, 1e-3);
+    let up = clamp(0.5 + 0.5 * offset.y / instance.size.y, 0.0, 1.0);
+
+    let formed = sprite_formed(amount, length(instance.from_cloud.xyz + offset) / instance.from_cloud.w);
+    opacity *= formed * mix(instance.low.a, instance.high.a, up);
+    let light = sprite_light(instance, offset, direction, up);
+    let clearness = sprite_clearness(place, away) * rim;
+    let seen = (light + sprite_flash(place)) * clearness + sky_radiance(direction) * (1.0 - clearness);
+
+    let clip = vec4f(
+        dot(place, sprite_view.clip_x.xyz),
+        dot(place, sprite_view.clip_y.xyz),
+        dot(place, sprite_view.clip_z.xyz) + sprite_view.clip_z.w,
+        dot(place, sprite_view.clip_w.xyz),
+    );
+    let cell = vec2f(f32(instance.names.x & 3u), f32(instance.names.x >> 2u));
+    let uv = (cell + vec2f(0.5, -0.5) * corner + 0.5) * 0.25;
+    let texels_a_pixel = sprite_view.viewer.z * sprite_view.viewer.y * distance / (2.0 * sqrt(instance.size.x * instance.size.y));
+    // Far away a whole level: between two, every texel of every sprite would cost two reads.
+    let fine = max(log2(max(texels_a_pixel, 1e-6)), 0.0);
+    let level = select(fine, round(fine), sprite_block.slot.y == 2u);
+    return SpriteVaryings(clip, uv, level, vec4f(seen, opacity), light * (clearness * own.sun.w));
+}
+
+// With colours at greys of one quarter and three quarters.
+fn sprite_between(linear: SpriteVaryings, dark: vec3f, bright: vec3f) -> SpriteVaryings {
+    let light = vec4f(0.5 * (dark + bright), linear.light.w);
+    return SpriteVaryings(linear.position, linear.uv, linear.level, light, 2.0 * (bright - dark));
+}
+
+// The tone curve is taken at the vertices and is straight between two greys: sprites overlap by the dozen, and arithmetic for each texel
+// is what they cost.
+@vertex
+fn vs_sprite(@builtin(vertex_index) index: u32) -> SpriteVaryings {
+    let linear = sprite_vertex(index);
+    let step = 0.25 * linear.relief;
+    let bright = display_colour(linear.light.rgb + step);
+    let dark = display_colour(max(linear.light.rgb - step, vec3f(0.0)));
+    return sprite_between(linear, dark, bright);
+}
+
+// The same for a picture of the ring.
+@vertex
+fn vs_ring_sprite(@builtin(vertex_index) index: u32) -> SpriteVaryings {
+    let linear = sprite_vertex(index);
+    let step = 0.25 * linear.relief;
+    let bright = ring_stored(linear.light.rgb + step);
+    let dark = ring_stored(max(linear.light.rgb - step, vec3f(0.0)));
+    return sprite_between(linear, dark, bright);
+}
+
+@fragment
+fn fs_sprite(in: SpriteVaryings) -> @location(0) vec4f {
+    let texel = textureSampleLevel(sheet_texture, clamp_sampler, in.uv, in.level);
+    return vec4f(max(in.light.rgb + (texel.r - 0.5) * in.relief, vec3f(0.0)), 1.0) * (texel.g * in.light.w);
+}
+
+// The dome behind the sprites, if no other method's is: clear but for the thin upper layer of the packed method.
+fn sprites_layer(direction: vec3f, narrowing: f32) -> vec4f {
+    if !UPPER_LAYER {
+        return vec4f(0.0);
+    }
+    let hit = dome_intersect(direction);
+    let veil = packed_veil(hit, cloud_level(hit, narrowing));
+    return vec4f(packed_white(cloud_tint(direction)), veil * cloud_clearness(direction));
+}

@@ -1,0 +1,76 @@
+//! What [`crate::Method::Sprites`] alone knows.
+
+use super::{Method, Ranged};
+
+/// What [`crate::Method::Sprites`] alone knows. See [`crate::sprites`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpriteParams {
+    /// The method whose dome is behind the sprites; [`Method::Sprites`] is a clear one with [`crate::SkyParams::upper_layer`] alone.
+    pub behind: Method,
+    /// Cover of that dome, 0..1.
+    pub behind_cover: f32,
+    /// How far clouds are seen, in metres, 8000..=60000.
+    pub distance_m: f32,
+    /// Radius of the ring of impostors: blocks beyond it are drawn as pictures. In metres, 0 (no ring) or 4000..=60000.
+    pub ring_radius_m: f32,
+    /// Distance beyond which a cloud is one billboard, in metres, 2000..=60000.
+    pub billboards_beyond_m: f32,
+    /// The most that a cloud may have formed, 0 (nothing) to 1 (whole).
+    pub formation: f32,
+}
+
+impl Default for SpriteParams {
+    fn default() -> SpriteParams {
+        SpriteParams {
+            behind: Method::Sprites,
+            behind_cover: 0.0,
+            distance_m: 30_000.0,
+            ring_radius_m: 12_000.0,
+            billboards_beyond_m: 60_000.0,
+            formation: 1.0,
+        }
+    }
+}
+
+/// The least [`SpriteParams::ring_radius_m`] that is a ring, in metres: the side of a block.
+pub const LEAST_RING_M: f32 = welkin_pack::field::SECTION_SIDE_M;
+
+/// The most of every distance, in metres.
+pub const MOST_DISTANCE_M: f32 = 60_000.0;
+
+/// Every number that has a range.
+pub(super) fn numbers(sprites: &mut SpriteParams) -> Vec<Ranged<'_>> {
+    let usual = SpriteParams::default();
+    vec![
+        (
+            "sprites.behind_cover",
+            &mut sprites.behind_cover,
+            usual.behind_cover,
+            [0.0, 1.0],
+        ),
+        (
+            "sprites.distance_m",
+            &mut sprites.distance_m,
+            usual.distance_m,
+            [8000.0, MOST_DISTANCE_M],
+        ),
+        (
+            "sprites.ring_radius_m",
+            &mut sprites.ring_radius_m,
+            usual.ring_radius_m,
+            [0.0, MOST_DISTANCE_M],
+        ),
+        (
+            "sprites.billboards_beyond_m",
+            &mut sprites.billboards_beyond_m,
+            usual.billboards_beyond_m,
+            [2000.0, MOST_DISTANCE_M],
+        ),
+        (
+            "sprites.formation",
+            &mut sprites.formation,
+            usual.formation,
+            [0.0, 1.0],
+        ),
+    ]
+}

@@ -1,0 +1,179 @@
+//! What sprites need on a device: textures, buffers, groups.
+
+use wgpu::util::DeviceExt;
+
+use super::instances::{A_ROW, Instance};
+use super::outline;
+use super::pipelines::{GroupLayouts, one_of};
+use super::scene::{AMOUNTS_SIDE, Draw, Scene};
+use crate::uniforms::{SpriteBlock, SpriteView};
+
+/// Bytes from one view or block to the next: what every device takes as an offset.
+pub const STRIDE: u64 = 256;
+
+/// The uniforms of blocks, one after another.
+#[derive(Debug)]
+pub struct Blocks {
+    /// On the device.
+    pub buffer: wgpu::Buffer,
+    /// As they will be there.
+    pub bytes: Vec<u8>,
+}
+
+impl Blocks {
+    /// Room for those of a frame.
+    pub fn new(device: &wgpu::Device, slots: usize) -> Blocks {
+        // Every block on the screen, and in at most three pictures of a ring.
+        let most = 4 * slots;
+        Blocks {
+            buffer: uniform_buffer(device, "blocks of sprites", most as u64 * STRIDE),
+            bytes: Vec::with_capacity(most * STRIDE as usize),
+        }
+    }
+
+    /// Adds a block; gives its offset, or none if there is no room.
+    pub fn add(&mut self, draw: &Draw) -> Option<u32> {
+        let offset = self.bytes.len();
+        if offset + STRIDE as usize > self.bytes.capacity() {
+            return None;
+        }
+        let block = SpriteBlock {
+            origin: draw.origin,
+            slot: [draw.first, draw.vertices.ilog2(), 0, 0],
+        };
+        self.bytes.extend_from_slice(bytemuck::bytes_of(&block));
+        self.bytes.resize(offset + STRIDE as usize, 0);
+        Some(offset as u32)
+    }
+}
+
+/// Writes how far each cloud has formed.
+pub fn write_amounts(queue: &wgpu::Queue, texture: &wgpu::Texture, amounts: &[u8]) {
+    queue.write_texture(
+        texture.as_image_copy(),
+        amounts,
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(AMOUNTS_SIDE),
+            rows_per_image: None,
+        },
+        texture.size(),
+    );
+}
+
+/// Rows of 256 clouds.
+pub fn amounts_texture(device: &wgpu::Device, rows: u32) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("amounts of clouds"),
+        size: wgpu::Extent3d {
+            width: AMOUNTS_SIDE,
+            height: rows.max(1),
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::R8Unorm,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
+/// Rows of 256 sprites.
+pub fn instances_texture(device: &wgpu::Device, rows: u32) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("sprites"),
+        size: wgpu::Extent3d {
+            width: TEXELS * A_ROW,
+            height: rows,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba32Uint,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
+/// Texels of an instance.
+const TEXELS: u32 = size_of::<Instance>() as u32 / 16;
+
+/// Writes whole rows of instances.
+pub fn upload(queue: &wgpu::Queue, texture: &wgpu::Texture, row: u32, sprites: &[Instance]) {
+    queue.write_texture(
+        wgpu::TexelCopyTextureInfo {
+            origin: wgpu::Origin3d { x: 0, y: row, z: 0 },
+            ..texture.as_image_copy()
+        },
+        bytemuck::cast_slice(sprites),
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(A_ROW * size_of::<Instance>() as u32),
+            rows_per_image: None,
+        },
+        wgpu::Extent3d {
+            width: TEXELS * A_ROW,
+            height: sprites.len() as u32 / A_ROW,
+            depth_or_array_layers: 1,
+        },
+    );
+}
+
+/// Triangles of as many outlines and boxes as a slot has room for.
+pub fn index_buffers(device: &wgpu::Device, scene: &Scene) -> [wgpu::Buffer; 2] {
+    let room = scene.rows_a_slot() * A_ROW;
+    let outlines = outline::indices(room, outline::STRIP);
+    let boxes = outline::indices(room, outline::BOX_STRIP);
+    [outlines, boxes].map(|indices| {
+        device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("triangles of sprites"),
+            contents: bytemuck::cast_slice(&indices),
+            usage: wgpu::BufferUsages::INDEX,
+        })
+    })
+}
+
+/// An empty buffer of uniforms.
+pub fn uniform_buffer(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
+    buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM)
+}
+
+fn buffer(
+    device: &wgpu::Device,
+    label: &str,
+    size: u64,
+    usage: wgpu::BufferUsages,
+) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// Group 1 of sprites.
+pub fn sprites_group(
+    device: &wgpu::Device,
+    groups: &GroupLayouts,
+    [sheet, amounts, instances]: [&wgpu::Texture; 3],
+    [views, blocks, outlines]: [&wgpu::Buffer; 3],
+) -> wgpu::BindGroup {
+    let [sheet, amounts, instances] =
+        [sheet, amounts, instances].map(|t| t.create_view(&Default::default()));
+    let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("sprites"),
+        layout: &groups.sprites,
+        entries: &[
+            entry(3, wgpu::BindingResource::TextureView(&sheet)),
+            entry(4, wgpu::BindingResource::TextureView(&amounts)),
+            entry(5, one_of(views, size_of::<SpriteView>())),
+            entry(6, one_of(blocks, size_of::<SpriteBlock>())),
+            entry(10, outlines.as_entire_binding()),
+            entry(11, wgpu::BindingResource::TextureView(&instances)),
+        ],
+    })
+}

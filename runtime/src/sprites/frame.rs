@@ -1,0 +1,94 @@
+//! What a frame of sprites is computed from: where the viewer is, and the views of screen and ring.
+
+use glam::{DVec3, Vec3};
+
+use super::in_field;
+use super::ring::Station;
+use crate::params::LEAST_RING_M;
+use crate::uniforms::{SpriteView, Uniforms};
+use crate::{Camera, DepthConfig, SkyParams};
+
+/// What a frame is drawn from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame<'a> {
+    /// In their ranges.
+    pub params: &'a SkyParams,
+    /// Of the screen.
+    pub camera: &'a Camera,
+    /// Finite.
+    pub seconds: f64,
+    /// All but the light of the flare.
+    pub uniforms: &'a Uniforms,
+}
+
+impl Frame<'_> {
+    /// The viewer's place in the field.
+    pub fn viewer_m(&self) -> DVec3 {
+        let place = self.camera.position_m().as_dvec3();
+        in_field(self.params, place, self.seconds)
+    }
+}
+
+/// Texels a side of a cell of the sheet.
+pub fn cell_texels(sheet: &wgpu::Texture) -> f32 {
+    (sheet.width() / welkin_pack::SheetCell::A_SIDE) as f32
+}
+
+/// What a ring for this frame would be made for.
+pub fn station(frame: &Frame<'_>, viewer_m: DVec3, sight_m: f32, heights_m: [f64; 2]) -> Station {
+    let own = &frame.uniforms.sprites;
+    let radius = frame.params.sprites.ring_radius_m;
+    let params = frame.params;
+    Station {
+        place_m: viewer_m,
+        radius_m: if radius < LEAST_RING_M {
+            0.0
+        } else {
+            f64::from(radius)
+        },
+        distance_m: f64::from(sight_m),
+        heights_m,
+        sun: Vec3::new(own.sun[0], own.sun[1], own.sun[2]),
+        look: [
+            own.colour[0],
+            own.colour[2],
+            own.ambient[0],
+            own.air[2],
+            own.air[3],
+            own.flash[2],
+            params.cover,
+            params.sprites.formation,
+        ],
+    }
+}
+
+/// The screen's view. Depth is that of the camera's projection, or, without one, of an infinite one that begins at a tenth of a metre.
+pub fn screen_view(
+    depth: Option<DepthConfig>,
+    frame: &Frame<'_>,
+    sheet: &wgpu::Texture,
+) -> SpriteView {
+    let camera = &frame.uniforms.camera;
+    let [slope, start] = match (depth, frame.camera.clip_z) {
+        // Nothing is tested: half way between near and far is never cut off.
+        (None, _) => [0.5, 0.0],
+        (Some(_), Some(own)) => own,
+        (Some(depth), None) if depth.reversed => [0.0, NEAR_M],
+        (Some(_), None) => [1.0, -NEAR_M],
+    };
+    let [x, y, z, _] = camera.clip_w;
+    let height = frame.camera.position_m().y;
+    let pixel = 2.0
+        * (Vec3::new(camera.right[0], camera.right[1], camera.right[2]).length() / camera.right[3])
+            .max(Vec3::new(camera.up[0], camera.up[1], camera.up[2]).length() / camera.up[3]);
+    SpriteView {
+        clip_x: camera.clip_x,
+        clip_y: camera.clip_y,
+        clip_z: [slope * x, slope * y, slope * z, start],
+        clip_w: camera.clip_w,
+        viewer: [height, pixel, cell_texels(sheet), 0.0],
+    }
+}
+
+/// The near plane of a camera that does not say, in metres.
+const NEAR_M: f32 = 0.1;

@@ -1,0 +1,77 @@
+//! Light on clouds at a moment of the day, from the pack's table.
+//!
+//! # Theory
+//! Wang, "Shading": for a range of times an artist gives a factor on the ambient colours, the most colour that the sun adds, and
+//! the least and the most share of it. Between two times each number is interpolated; after the last comes the first.
+
+use glam::Vec3;
+use welkin_pack::field::Hour;
+
+/// The table at `time` (0..1); no light at all if it is empty. `hours` are in the order of time.
+pub fn at(hours: &[Hour], time: f32) -> Hour {
+    let (Some(first), Some(last)) = (hours.first(), hours.last()) else {
+        return Hour {
+            time,
+            ambient: 0.0,
+            colour: [0.0; 3],
+            least: 0.0,
+            most: 0.0,
+        };
+    };
+    let after = hours.iter().find(|hour| hour.time > time);
+    let before = hours.iter().rev().find(|hour| hour.time <= time);
+    let (before, after) = (before.unwrap_or(last), after.unwrap_or(first));
+    let turn = |span: f32| if span <= 0.0 { span + 1.0 } else { span };
+    let passed = (time - before.time).rem_euclid(1.0);
+    let share = (passed / turn(after.time - before.time)).clamp(0.0, 1.0);
+    let mix = |from: f32, to: f32| from + (to - from) * share;
+    let colour = Vec3::from(before.colour).lerp(Vec3::from(after.colour), share);
+    Hour {
+        time,
+        ambient: mix(before.ambient, after.ambient),
+        colour: colour.to_array(),
+        least: mix(before.least, after.least),
+        most: mix(before.most, after.most),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hour(time: f32, ambient: f32) -> Hour {
+        Hour {
+            time,
+            ambient,
+            colour: [ambient; 3],
+            least: 0.0,
+            most: 1.0,
+        }
+    }
+
+    #[test]
+    fn it_is_the_tables_at_its_times_and_between_them_halfway() {
+        let hours = [hour(0.25, 0.2), hour(0.5, 1.0), hour(0.75, 0.4)];
+        for row in hours {
+            assert_eq!(at(&hours, row.time).ambient, row.ambient);
+        }
+        assert!((at(&hours, 0.375).ambient - 0.6).abs() < 1e-6);
+        assert!((at(&hours, 0.625).colour[1] - 0.7).abs() < 1e-6);
+    }
+
+    #[test]
+    fn it_wraps_at_midnight() {
+        let hours = [hour(0.25, 0.2), hour(0.75, 0.4)];
+        assert!((at(&hours, 0.0).ambient - 0.3).abs() < 1e-6);
+        assert!((at(&hours, 0.999_999).ambient - at(&hours, 0.0).ambient).abs() < 1e-4);
+        assert!((at(&hours, 0.125).ambient - 0.25).abs() < 1e-6);
+    }
+
+    #[test]
+    fn one_row_is_the_same_all_day_and_no_row_is_dark() {
+        for time in [0.0, 0.3, 0.5, 0.9] {
+            assert_eq!(at(&[hour(0.5, 0.7)], time).ambient, 0.7);
+            assert_eq!(at(&[], time).ambient, 0.0);
+        }
+    }
+}

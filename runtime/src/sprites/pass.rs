@@ -1,0 +1,452 @@
+//! The sprites on a device.
+
+use glam::{DVec3, Vec3};
+use welkin_pack::Field;
+use wgpu::util::DeviceExt;
+
+use super::device::{
+    Blocks, STRIDE, amounts_texture, index_buffers, instances_texture, sprites_group,
+    uniform_buffer, upload, write_amounts,
+};
+use super::frame::{Frame, cell_texels, screen_view, station};
+use super::grid::{BlockId, around, slots_a_side};
+use super::instances::{A_ROW, Instance};
+use super::lift_m;
+use super::outline::{self, Outline};
+use super::pipelines::{GroupLayouts, Pipelines, one_of, pictures};
+use super::ring::{self, Ring, Station, Step};
+use super::scene::{AMOUNTS_SIDE, Draw, Scene, planes};
+use crate::program::Common;
+use crate::uniforms::{RingUniforms, SpriteView};
+use crate::{Method, SkyModel};
+
+/// Views of a frame: the screen's and the ring's pictures'.
+const VIEWS: u64 = 1 + ring::PICTURES as u64;
+
+/// The sprites of a field, and what draws them.
+#[derive(Debug)]
+pub(crate) struct Pass {
+    scene: Scene,
+    groups: GroupLayouts,
+    /// Of each sky model, at its place in [`SkyModel::ALL`].
+    pipelines: [Option<Pipelines>; SkyModel::ALL.len()],
+    instances: wgpu::Texture,
+    /// Triangles of as many outlines and boxes as a slot has room for.
+    indices: [wgpu::Buffer; 2],
+    amounts: wgpu::Texture,
+    views: wgpu::Buffer,
+    outlines: wgpu::Buffer,
+    blocks: Blocks,
+    sprites_group: wgpu::BindGroup,
+    ring: Option<Ring>,
+    ring_uniforms: wgpu::Buffer,
+    /// The pictures of the ring in use, and of the next one.
+    pictures: [Option<wgpu::Texture>; 2],
+    ring_group: Option<wgpu::BindGroup>,
+    /// Blocks in view with their distances, before they are drawn.
+    found: Vec<(f64, BlockId)>,
+    /// Blocks of sprites of a picture or of the screen, the farthest first.
+    draws: Vec<(Draw, u32)>,
+    /// Those before this one are for the ring's pictures.
+    pictured: usize,
+    step: Step,
+    ring_shows: bool,
+}
+
+impl Pass {
+    /// A field on a device, seen that far.
+    pub fn new(common: &Common, field: &Field, outlines: &[Outline], distance_m: f32) -> Pass {
+        let (device, sheet) = (&common.device, &common.sheet);
+        let mut scene = Scene::new(field);
+        let distance = scene.sight_m(distance_m, device.limits().max_texture_dimension_2d);
+        scene.fit(distance);
+        let groups = GroupLayouts::new(device);
+        let amounts = amounts_texture(device, scene.amounts.len() as u32 / AMOUNTS_SIDE);
+        let views = uniform_buffer(device, "views of sprites", VIEWS * STRIDE);
+        let outlines = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("outlines of sprites"),
+            contents: bytemuck::cast_slice(outlines),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        let slots = slots_a_side(distance).pow(2);
+        let blocks = Blocks::new(device, slots);
+        let instances = instances_texture(device, scene.rows(distance));
+        Pass {
+            indices: index_buffers(device, &scene),
+            sprites_group: sprites_group(
+                device,
+                &groups,
+                [sheet, &amounts, &instances],
+                [&views, &blocks.buffer, &outlines],
+            ),
+            ring_uniforms: uniform_buffer(device, "ring", size_of::<RingUniforms>() as u64),
+            pipelines: [const { None }; SkyModel::ALL.len()],
+            draws: Vec::with_capacity(4 * slots),
+            found: Vec::with_capacity(slots),
+            ring: None,
+            pictures: [const { None }; 2],
+            ring_group: None,
+            ring_shows: false,
+            pictured: 0,
+            instances,
+            step: Step::Keep,
+            scene,
+            groups,
+            amounts,
+            views,
+            outlines,
+            blocks,
+        }
+    }
+
+    /// Makes the pipelines of a sky model if they are not there yet.
+    pub fn load(&mut self, common: &Common, sky: SkyModel) {
+        let groups = &self.groups;
+        self.pipelines[sky as usize].get_or_insert_with(|| {
+            let module = common.module(Method::Sprites, sky);
+            Pipelines::new(common, &module, groups)
+        });
+    }
+
+    /// Computes a frame and records the pictures of the ring that it draws. Parameters are in range.
+    pub fn record(
+        &mut self,
+        common: &Common,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        shared: &wgpu::BindGroup,
+        frame: &Frame<'_>,
+    ) {
+        let (device, sheet) = (&common.device, &common.sheet);
+        let asked = frame.params.sprites.distance_m;
+        let sight_m = self
+            .scene
+            .sight_m(asked, device.limits().max_texture_dimension_2d);
+        if self.scene.fit(sight_m) {
+            self.refit(device, sheet, sight_m);
+        }
+        let viewer_m = frame.viewer_m();
+        if self.scene.form(frame.params, frame.seconds) {
+            write_amounts(queue, &self.amounts, &self.scene.amounts);
+        }
+        self.scene.lock(viewer_m);
+        let screen = screen_view(common.config.depth, frame, sheet);
+        queue.write_buffer(&self.views, 0, bytemuck::bytes_of(&screen));
+        self.blocks.bytes.clear();
+        self.draws.clear();
+        let now = station(frame, viewer_m, sight_m, self.scene.heights_m);
+        self.step_ring(common, now);
+        let pictures = self.gather_pictures(queue, sheet, frame);
+        self.gather_screen(queue, &screen, frame, sight_m);
+        queue.write_buffer(&self.blocks.buffer, 0, &self.blocks.bytes);
+        self.record_pictures(encoder, shared, frame.params.sky, pictures);
+    }
+
+    /// Draws the recorded frame over the sky.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, sky: SkyModel) {
+        let Some(pipelines) = &self.pipelines[sky as usize] else {
+            return;
+        };
+        if let Some(group) = self.ring_group.as_ref().filter(|_| self.ring_shows) {
+            pass.set_pipeline(&pipelines.ring);
+            pass.set_bind_group(1, group, &[0]);
+            pass.draw(0..RING_VERTICES, 0..1);
+        }
+        pass.set_pipeline(&pipelines.sprites);
+        for (draw, block) in &self.draws[self.pictured..] {
+            self.draw_block(pass, draw, 0, *block);
+        }
+    }
+
+    /// Forgets what it knows of earlier frames: the next one is as that of a new sky.
+    pub fn forget(&mut self) {
+        self.ring = None;
+        self.scene.forget();
+    }
+
+    /// Share of the sun's light that comes through to the viewer.
+    pub fn clear_towards_sun(&self, frame: &Frame<'_>, sun: Vec3) -> f32 {
+        let opacity = frame.uniforms.sprites.air[2];
+        let own = &frame.params.sprites;
+        let reach = f64::from(own.distance_m);
+        self.scene
+            .clear_towards(sun, frame.viewer_m(), reach, opacity)
+    }
+
+    /// Sprites that the recorded frame draws, on the screen and into the ring.
+    pub fn drawn(&self) -> [u64; 2] {
+        let count = |draws: &[(Draw, u32)]| draws.iter().map(|(d, _)| u64::from(d.count)).sum();
+        let (ring, screen) = self.draws.split_at(self.pictured);
+        [count(screen), count(ring)]
+    }
+
+    /// Bytes of the ring's pictures.
+    pub fn ring_bytes(&self) -> u64 {
+        self.pictures.iter().flatten().count() as u64 * ring::BYTES
+    }
+
+    /// Bytes of all that it keeps on the device: sprites in sight, uniforms, amounts, pictures.
+    pub fn bytes(&self) -> u64 {
+        let [outlines, boxes] = &self.indices;
+        let buffers = [&self.views, &self.blocks.buffer, outlines, boxes];
+        buffers.iter().map(|b| b.size()).sum::<u64>()
+            + u64::from(self.instances.height() * A_ROW) * size_of::<Instance>() as u64
+            + self.scene.amounts.len() as u64
+            + self.ring_bytes()
+    }
+
+    fn refit(&mut self, device: &wgpu::Device, sheet: &wgpu::Texture, sight_m: f32) {
+        let slots = slots_a_side(sight_m).pow(2);
+        self.instances = instances_texture(device, self.scene.rows(sight_m));
+        self.blocks = Blocks::new(device, slots);
+        self.draws = Vec::with_capacity(4 * slots);
+        self.found = Vec::with_capacity(slots);
+        self.sprites_group = sprites_group(
+            device,
+            &self.groups,
+            [sheet, &self.amounts, &self.instances],
+            [&self.views, &self.blocks.buffer, &self.outlines],
+        );
+    }
+
+    /// Lets the ring go on by a frame, and makes or drops its pictures.
+    fn step_ring(&mut self, common: &Common, now: Station) {
+        let is_new = self.ring.is_none();
+        let ring = self.ring.get_or_insert_with(|| Ring::new(now));
+        self.step = if is_new { Step::All } else { ring.step(now) };
+        let is_on = ring.current().is_on();
+        let (device, output) = (&common.device, common.build.output);
+        match self.step {
+            Step::Keep => {}
+            Step::All => {
+                self.pictures = [is_on.then(|| pictures(device, output)), None];
+                self.ring_group = None;
+            }
+            Step::Part([0, 0]) => {
+                self.pictures[1] = Some(pictures(device, output));
+                self.ring_group = None;
+            }
+            Step::Part(_) => {}
+            Step::Swap => {
+                self.pictures = [self.pictures[1].take().filter(|_| is_on), None];
+                self.ring_group = None;
+            }
+        }
+        if self.ring_group.is_none() {
+            self.ring_group = self.make_ring_group(device);
+        }
+    }
+
+    /// The first picture stands in for one that is not there: its share is 0.
+    fn make_ring_group(&self, device: &wgpu::Device) -> Option<wgpu::BindGroup> {
+        let any = self.pictures.iter().flatten().next()?;
+        let view = |texture: &Option<wgpu::Texture>| {
+            let texture = texture.as_ref().unwrap_or(any);
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                ..Default::default()
+            })
+        };
+        let [old, new] = [view(&self.pictures[0]), view(&self.pictures[1])];
+        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+        Some(device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("ring"),
+            layout: &self.groups.ring,
+            entries: &[
+                entry(5, one_of(&self.views, size_of::<SpriteView>())),
+                entry(7, self.ring_uniforms.as_entire_binding()),
+                entry(8, wgpu::BindingResource::TextureView(&old)),
+                entry(9, wgpu::BindingResource::TextureView(&new)),
+            ],
+        }))
+    }
+
+    /// Adds the blocks of the pictures that this frame draws; gives those pictures and where their draws begin and end.
+    fn gather_pictures(
+        &mut self,
+        queue: &wgpu::Queue,
+        sheet: &wgpu::Texture,
+        frame: &Frame<'_>,
+    ) -> Pictures {
+        let mut pictures = Pictures::default();
+        let next = self.ring.as_ref().and_then(Ring::next);
+        let (station, first, last, parts) = match (self.step, &self.ring, next) {
+            (Step::All, Some(ring), _) => (*ring.current(), 0, ring::PICTURES, [0, 1]),
+            (Step::Part([picture, part]), _, Some(next)) => {
+                pictures.target = 1;
+                (*next, picture, picture + 1, [part, next.parts()])
+            }
+            _ => return self.all_pictured(pictures),
+        };
+        if !station.is_on() {
+            return self.all_pictured(pictures);
+        }
+        pictures.goes_on = parts[0] > 0;
+        for picture in first..last {
+            let begin = self.draws.len();
+            let view = station.view(picture, cell_texels(sheet), -lift_m(frame.params));
+            let offset = (1 + picture as u64) * STRIDE;
+            queue.write_buffer(&self.views, offset, bytemuck::bytes_of(&view));
+            let sides = planes(view.clip_x, view.clip_y, view.clip_w);
+            self.find_picture(&station, &sides);
+            let [from, to] = [parts[0], parts[0] + 1].map(|i| i * self.found.len() / parts[1]);
+            for index in from..to {
+                let (_, block) = self.found[index];
+                self.add_block(queue, frame, block, station.place_m, 1.0);
+            }
+            pictures.draws[picture] = Some([begin, self.draws.len()]);
+        }
+        self.all_pictured(pictures)
+    }
+
+    /// What is added from here on is for the screen.
+    fn all_pictured(&mut self, pictures: Pictures) -> Pictures {
+        self.pictured = self.draws.len();
+        pictures
+    }
+
+    /// Finds the blocks of a picture of a ring, the farthest first.
+    fn find_picture(&mut self, station: &Station, sides: &[Vec3]) {
+        self.found.clear();
+        for block in around(station.place_m, station.distance_m) {
+            if station.holds(block) && self.scene.is_in_view(block, station.place_m, sides) {
+                let distance = block.distance_of_middle_m(station.place_m);
+                self.found.push((distance, block));
+            }
+        }
+        farthest_first(&mut self.found);
+    }
+
+    fn gather_screen(
+        &mut self,
+        queue: &wgpu::Queue,
+        screen: &SpriteView,
+        frame: &Frame<'_>,
+        sight_m: f32,
+    ) {
+        let viewer_m = frame.viewer_m();
+        let sides = planes(screen.clip_x, screen.clip_y, screen.clip_w);
+        let Some(ring) = self.ring else {
+            return;
+        };
+        self.found.clear();
+        for block in around(viewer_m, f64::from(sight_m)) {
+            let shows = ring.share_of_sprites(block) > 0.0;
+            if shows && self.scene.is_in_view(block, viewer_m, &sides) {
+                self.found
+                    .push((block.distance_of_middle_m(viewer_m), block));
+            }
+        }
+        farthest_first(&mut self.found);
+        for index in 0..self.found.len() {
+            let (_, block) = self.found[index];
+            let share = ring.share_of_sprites(block);
+            self.add_block(queue, frame, block, viewer_m, share);
+        }
+        let (uniforms, shows) = ring.uniforms(viewer_m);
+        self.ring_shows = shows && self.ring_group.is_some();
+        queue.write_buffer(&self.ring_uniforms, 0, bytemuck::bytes_of(&uniforms));
+    }
+
+    /// Adds a block as it is seen from a place of the field, if it holds anything.
+    fn add_block(
+        &mut self,
+        queue: &wgpu::Queue,
+        frame: &Frame<'_>,
+        block: BlockId,
+        viewpoint_m: DVec3,
+        share: f32,
+    ) {
+        let [_, _, width, end] = frame.uniforms.sprites.fade;
+        let billboards = [end - 1.0 / width, end];
+        let instances = &self.instances;
+        let upload = |row: u32, sprites: &[Instance]| upload(queue, instances, row, sprites);
+        let viewer_m = frame.viewer_m();
+        let draw = self
+            .scene
+            .draw(block, viewer_m, viewpoint_m, share, billboards, upload);
+        if let Some(draw) = draw
+            && let Some(offset) = self.blocks.add(&draw)
+        {
+            self.draws.push((draw, offset));
+        }
+    }
+
+    fn record_pictures(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        shared: &wgpu::BindGroup,
+        sky: SkyModel,
+        pictures: Pictures,
+    ) {
+        let target = self.pictures[pictures.target].as_ref();
+        let (Some(texture), Some(pipelines)) = (target, &self.pipelines[sky as usize]) else {
+            return;
+        };
+        let load = if pictures.goes_on {
+            wgpu::LoadOp::Load
+        } else {
+            wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)
+        };
+        for (picture, range) in pictures.draws.into_iter().enumerate() {
+            let Some([begin, end]) = range else {
+                continue;
+            };
+            let view = texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_array_layer: picture as u32,
+                array_layer_count: Some(1),
+                ..Default::default()
+            });
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("ring of impostors"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load,
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                ..Default::default()
+            });
+            pass.set_pipeline(&pipelines.picture);
+            pass.set_bind_group(0, shared, &[]);
+            let offset = ((1 + picture as u64) * STRIDE) as u32;
+            for (draw, block) in &self.draws[begin..end] {
+                self.draw_block(&mut pass, draw, offset, *block);
+            }
+        }
+    }
+
+    fn draw_block(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw, view: u32, block: u32) {
+        pass.set_bind_group(1, &self.sprites_group, &[view, block]);
+        let [outlines, boxes] = &self.indices;
+        let indices = if draw.vertices == outline::BOX {
+            boxes
+        } else {
+            outlines
+        };
+        pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed(0..draw.count * outline::index_count(draw.vertices), 0, 0..1);
+    }
+}
+
+/// Vertices of the ring's walls: two at each corner, the first one twice.
+const RING_VERTICES: u32 = 2 * (ring::PICTURES as u32 + 1);
+
+/// The pictures that a frame draws.
+#[derive(Clone, Copy, Debug, Default)]
+struct Pictures {
+    /// 0 of the ring in use, 1 of the next one.
+    target: usize,
+    /// Whether they are drawn over what is there of them.
+    goes_on: bool,
+    /// Where the draws of each begin and end.
+    draws: [Option<[usize; 2]>; ring::PICTURES],
+}
+
+fn farthest_first(blocks: &mut [(f64, BlockId)]) {
+    blocks.sort_unstable_by(|(a, block), (b, other)| b.total_cmp(a).then(block.cmp(other)));
+}

@@ -1,0 +1,232 @@
+//! The pipelines and the bind groups of the sprites.
+
+use welkin_pack::SheetCell;
+
+use super::device::STRIDE;
+use super::outline::Outline;
+use super::ring;
+use crate::pipeline::{depth_state, multisample_state, vertex_state};
+use crate::program::Common;
+use crate::shader::Output;
+use crate::uniforms::{RingUniforms, SpriteBlock, SpriteView};
+
+/// What of a sprite or of the ring is left of the colour behind it: their own is multiplied by their opacity.
+const OVER: wgpu::BlendComponent = wgpu::BlendComponent {
+    src_factor: wgpu::BlendFactor::One,
+    dst_factor: wgpu::BlendFactor::OneMinusSrcAlpha,
+    operation: wgpu::BlendOperation::Add,
+};
+
+/// The opacity of a target stays what it was.
+const KEEP: wgpu::BlendComponent = wgpu::BlendComponent {
+    src_factor: wgpu::BlendFactor::Zero,
+    dst_factor: wgpu::BlendFactor::One,
+    operation: wgpu::BlendOperation::Add,
+};
+
+/// Layouts of group 1 of sprites and of the ring.
+#[derive(Debug)]
+pub struct GroupLayouts {
+    /// Sheet, amounts, view, block.
+    pub sprites: wgpu::BindGroupLayout,
+    /// View, ring, both rings' pictures.
+    pub ring: wgpu::BindGroupLayout,
+}
+
+/// The pipelines of one sky model.
+#[derive(Debug)]
+pub struct Pipelines {
+    /// Sprites onto the target.
+    pub sprites: wgpu::RenderPipeline,
+    /// Sprites into a picture of the ring.
+    pub picture: wgpu::RenderPipeline,
+    /// The ring onto the target.
+    pub ring: wgpu::RenderPipeline,
+}
+
+impl GroupLayouts {
+    /// Makes both.
+    pub fn new(device: &wgpu::Device) -> GroupLayouts {
+        let layout = |entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some("sprites"),
+                entries,
+            })
+        };
+        let view = uniform(5, true, size_of::<SpriteView>());
+        let plane = wgpu::TextureViewDimension::D2;
+        let array = wgpu::TextureViewDimension::D2Array;
+        GroupLayouts {
+            sprites: layout(&[
+                texture(3, plane),
+                texture(4, plane),
+                view,
+                uniform(6, true, size_of::<SpriteBlock>()),
+                uniform(10, false, OUTLINES_BYTES),
+                entry(11, INSTANCES),
+            ]),
+            ring: layout(&[
+                view,
+                uniform(7, false, size_of::<RingUniforms>()),
+                texture(8, array),
+                texture(9, array),
+            ]),
+        }
+    }
+}
+
+/// The texture of instances.
+const INSTANCES: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Uint,
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
+
+fn texture(binding: u32, dimension: wgpu::TextureViewDimension) -> wgpu::BindGroupLayoutEntry {
+    entry(
+        binding,
+        wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension: dimension,
+            multisampled: false,
+        },
+    )
+}
+
+fn uniform(binding: u32, dynamic: bool, bytes: usize) -> wgpu::BindGroupLayoutEntry {
+    entry(
+        binding,
+        wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: dynamic,
+            min_binding_size: wgpu::BufferSize::new(bytes as u64),
+        },
+    )
+}
+
+fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        ty,
+        count: None,
+    }
+}
+
+/// Bytes of the outlines of all cells.
+pub const OUTLINES_BYTES: usize = SheetCell::COUNT as usize * size_of::<Outline>();
+
+/// A part of a buffer of [`STRIDE`] bytes a thing.
+pub fn one_of(buffer: &wgpu::Buffer, bytes: usize) -> wgpu::BindingResource<'_> {
+    debug_assert!(bytes as u64 <= STRIDE);
+    wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+        buffer,
+        offset: 0,
+        size: wgpu::BufferSize::new(bytes as u64),
+    })
+}
+
+/// The format of the ring's pictures: it blends as the target does.
+pub fn picture_format(output: Output) -> wgpu::TextureFormat {
+    match output {
+        Output::Encoded => wgpu::TextureFormat::Rgba8Unorm,
+        Output::Radiance | Output::Display => wgpu::TextureFormat::Rgba8UnormSrgb,
+    }
+}
+
+/// An array of the ring's pictures.
+pub fn pictures(device: &wgpu::Device, output: Output) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("ring of impostors"),
+        size: wgpu::Extent3d {
+            width: ring::SIDE,
+            height: ring::SIDE,
+            depth_or_array_layers: ring::PICTURES as u32,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: picture_format(output),
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    })
+}
+
+impl Pipelines {
+    /// Makes them for a composed shader.
+    pub fn new(common: &Common, module: &wgpu::ShaderModule, groups: &GroupLayouts) -> Pipelines {
+        let device = &common.device;
+        let layout =
+            |own: &wgpu::BindGroupLayout| common.layouts.pipeline_layout(device, Some(own));
+        let (sprites, ring) = (layout(&groups.sprites), layout(&groups.ring));
+        let target = common.config.target_format;
+        let make = |draw: Draw<'_>| pipeline(common, module, draw);
+        Pipelines {
+            sprites: make(Draw {
+                layout: &sprites,
+                entries: ["vs_sprite", "fs_sprite"],
+                format: target,
+                on_screen: true,
+                topology: wgpu::PrimitiveTopology::TriangleList,
+            }),
+            picture: make(Draw {
+                layout: &sprites,
+                entries: ["vs_ring_sprite", "fs_sprite"],
+                format: picture_format(common.build.output),
+                on_screen: false,
+                topology: wgpu::PrimitiveTopology::TriangleList,
+            }),
+            ring: make(Draw {
+                layout: &ring,
+                entries: ["vs_ring", "fs_ring"],
+                format: target,
+                on_screen: true,
+                topology: wgpu::PrimitiveTopology::TriangleStrip,
+            }),
+        }
+    }
+}
+
+/// What a pipeline draws, onto the target or off screen.
+struct Draw<'a> {
+    layout: &'a wgpu::PipelineLayout,
+    entries: [&'static str; 2],
+    format: wgpu::TextureFormat,
+    on_screen: bool,
+    topology: wgpu::PrimitiveTopology,
+}
+
+fn pipeline(common: &Common, module: &wgpu::ShaderModule, draw: Draw<'_>) -> wgpu::RenderPipeline {
+    let config = &common.config;
+    let [vertex, fragment] = draw.entries;
+    let alpha = if draw.on_screen { KEEP } else { OVER };
+    common
+        .device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(fragment),
+            layout: Some(draw.layout),
+            vertex: vertex_state(module, vertex, &[]),
+            primitive: wgpu::PrimitiveState {
+                topology: draw.topology,
+                ..Default::default()
+            },
+            depth_stencil: config.depth.filter(|_| draw.on_screen).map(depth_state),
+            multisample: if draw.on_screen {
+                multisample_state(config)
+            } else {
+                wgpu::MultisampleState::default()
+            },
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some(fragment),
+                compilation_options: Default::default(),
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: draw.format,
+                    blend: Some(wgpu::BlendState { color: OVER, alpha }),
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+}
