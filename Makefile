@@ -1,5 +1,5 @@
 # The front door. Needs Rust (rustup or Debian's rustc of the version in Cargo.toml), a C compiler and, for
-# pictures and tests, a Vulkan driver and Node.js: `make tools` installs what is missing where it may.
+# pictures and tests, a Vulkan driver, a GL one and Node.js: `make tools` installs what is missing where it may.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
@@ -11,7 +11,7 @@ SKYBOX_PACK := packs/skybox
 FRAME := --size 1280x720
 
 # The three skies that every method draws.
-METHODS := packed octaves fbm lit
+METHODS := packed octaves fbm lit sprites
 NOON := --time 0.45 --azimuth 100 --elevation 28
 SUNSET := --time 0.742 --sunset 1 --cover 0.62 --height 0.6 --azimuth 270 --elevation 20
 STORM := --time 0.42 --cover 0.92 --density 0.75 --azimuth 40 --elevation 25
@@ -38,6 +38,7 @@ sky: gpu-tools ## Bake the default pack, check it, and draw pictures of every me
 	$(VIEW) render $(PACK) -o out/octaves-storm.png $(FRAME) --method octaves $(STORM)
 	$(VIEW) render $(PACK) -o out/fbm-storm.png $(FRAME) --method fbm --palette stormy $(STORM)
 	$(VIEW) render $(PACK) -o out/lit-storm.png $(FRAME) --method lit $(STORM)
+	$(VIEW) render $(PACK) -o out/sprites-storm.png $(FRAME) --method sprites $(STORM)
 	$(VIEW) render $(PACK) -o out/moonlight.png $(FRAME) --method lit --time 0.03 --cover 0.5 --azimuth 200 --elevation 34
 	$(VIEW) render $(PACK) -o out/rays.png $(FRAME) --method fbm --time 0.72 --cover 0.7 --azimuth 252 --elevation 12 --at 60 --rays 1
 	$(VIEW) render $(PACK) -o out/rain.png $(FRAME) --method lit --time 0.42 --cover 1 --density 0.6 --azimuth 40 --elevation 15 --rain 0.8
@@ -57,7 +58,16 @@ sky: gpu-tools ## Bake the default pack, check it, and draw pictures of every me
 # Clouds of the lit method: how many, of how many layers, of which kind, in which light.
 LIT := --size 480x270 --method lit --elevation 24 --fov 60 --flare 0
 LIT_LOW_SUN := --time 0.725 --azimuth 254
-gallery: sky ## Draw the pictures of docs/lit.md into out/lit/
+
+# Clouds in space. Each kind: its cover, a height among its clouds and one above them, in metres.
+SPRITES := --size 480x270 --method sprites --flare 0
+KINDS := cumulus:0.45:1250:3800 congestus:0.5:1800:5500 cumulonimbus:0.45:2500:9000 stratus:0.85:450:900 \
+  stratocumulus:0.8:1350:3800 altocumulus:0.6:3300:5200 cirrus:0.7:7600:9500
+DAY := dawn:0.262:92 noon:0.48:120 dusk:0.735:262 night:0.03:200
+# A flight straight through a cloud, by metres to the north.
+FLIGHT := 1000 1250 1500 1650 1750 1850 2000 2250
+
+gallery: sky ## Draw the pictures of docs/lit.md and docs/sprites.md into out/lit/ and out/sprites/
 	mkdir -p out/lit
 	for oktas in 0 2 4 6 8; do \
 	  for layers in "one --layers stratocumulus" "three"; do \
@@ -71,6 +81,30 @@ gallery: sky ## Draw the pictures of docs/lit.md into out/lit/
 	  $(VIEW) render $(PACK) -o out/lit/$$kind-noon.png $(LIT) --layers $$kind --oktas 4 --time 0.48 --azimuth 120; \
 	  $(VIEW) render $(PACK) -o out/lit/$$kind-low-sun.png $(LIT) --layers $$kind --oktas 4 $(LIT_LOW_SUN); \
 	done
+	mkdir -p out/sprites
+	for kind in $(KINDS); do \
+	  IFS=: read -r name cover among above <<< $$kind; pack=packs/fields/$$name; \
+	  $(WELKIN) bake assets-src/recipes/fields/$$name.toml -o $$pack --force; \
+	  set -- $(SPRITES) --cover $$cover --time 0.42 --azimuth 30 --fov 70 --ring 12000; \
+	  $(VIEW) render $$pack -o out/sprites/$$name-ground.png "$$@" --elevation 24 --up 2; \
+	  $(VIEW) render $$pack -o out/sprites/$$name-among.png "$$@" --elevation 8 --up $$among; \
+	  $(VIEW) render $$pack -o out/sprites/$$name-above.png "$$@" --elevation -12 --up $$above; \
+	done
+	for hour in $(DAY); do \
+	  IFS=: read -r name time azimuth <<< $$hour; \
+	  $(VIEW) render $(PACK) -o out/sprites/$$name.png $(SPRITES) --cover 0.3 --time $$time --azimuth $$azimuth --elevation 14; \
+	done
+	for formed in 0.17 0.33 0.5 0.67 0.83 1; do \
+	  $(VIEW) render $(PACK) -o out/sprites/formed-$$formed.png $(SPRITES) --cover 0.3 $(NOON) --formation $$formed; \
+	done
+	for ring in 0 12000; do \
+	  $(VIEW) render $(PACK) -o out/sprites/ring-$$ring.png $(SPRITES) --cover 0.5 --time 0.45 --azimuth 100 --elevation 12 --ring $$ring; \
+	  $(VIEW) render $(PACK) -o out/sprites/ring-wide-$$ring.png $(SPRITES) --cover 0.5 --time 0.45 --azimuth 100 --elevation -12 --fov 75 --up 3400 --ring $$ring; \
+	done
+	for north in $(FLIGHT); do \
+	  $(VIEW) render $(PACK) -o out/sprites/flight-$$north.png $(SPRITES) --cover 0.3 --time 0.4 --azimuth 0 --elevation 2 --up 1300 --north $$north; \
+	done
+	$(VIEW) render $(PACK) -o out/sprites/far.png $(SPRITES) --cover 0.6 --time 0.45 --azimuth 100 --elevation -14 --up 9000 --sight 60000
 
 test: gpu-tools node-tools ## Run every test, and formatting, lints and docs without a warning
 	$(CARGO) fmt --all --check
@@ -91,11 +125,14 @@ bench: gpu-tools ## Measure the bake, and the GPU milliseconds of a frame of eac
 
 tools: gpu-tools node-tools ## Install what pictures and tests need, with apt, where it is missing
 
-# A Vulkan driver: any GPU's, or Mesa's software one. `ls` finds the driver files that the loader reads.
+# A Vulkan driver and a GL one: any GPU's, or Mesa's software ones. `ls` finds the driver files that the loaders read.
 gpu-tools:
 	@ls /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json 2>/dev/null | grep -q . && ldconfig -p | grep -q libvulkan.so.1 \
 	  || [ "$$(uname -s)" != Linux ] \
 	  || scripts/apt-install mesa-vulkan-drivers libvulkan1
+	@ls /usr/share/glvnd/egl_vendor.d/*.json /etc/glvnd/egl_vendor.d/*.json 2>/dev/null | grep -q . && ldconfig -p | grep -q libEGL.so.1 \
+	  || [ "$$(uname -s)" != Linux ] \
+	  || scripts/apt-install libegl1 libegl-mesa0 libgl1-mesa-dri
 
 # Node.js runs independent readers of KTX2 and glTF.
 node-tools:
