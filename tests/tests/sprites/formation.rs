@@ -1,7 +1,7 @@
 //! Clouds form from their middle, and cover brings them.
 
 use glam::{DVec3, Vec3};
-use welkin_runtime::{Method, SkyParams, SpriteParams};
+use welkin_runtime::{Method, SkyError, SkyParams, SpriteParams};
 use welkin_tests::{gpu, pack};
 
 use super::{field, mean_difference, params, view, without_ring};
@@ -136,4 +136,17 @@ fn without_sprites_the_dome_behind_is_all_there_is() {
         };
         assert!(draw(&with) != draw(&behind), "{method:?}");
     }
+}
+
+#[test]
+fn a_pack_without_a_field_is_told_and_draws_the_dome_alone() {
+    let pack = pack::changed_pack(None, |_, _| {});
+    assert!(pack.field().is_none());
+    let camera = view(DVec3::new(0.0, 2.0, 0.0), 30.0, 25.0, SIZE);
+    let mut sky = gpu::sky(&pack, FORMAT);
+    assert_eq!(sky.supports(Method::Sprites), Err(SkyError::MissingField));
+    assert_eq!(sky.supports(Method::Lit), Ok(()));
+    let at = |cover: f32| SkyParams { cover, ..params() };
+    let mut draw = |params: &SkyParams| gpu::render(&mut sky, FORMAT, params, &camera, 0.0);
+    assert!(draw(&at(0.7)) == draw(&at(0.0)));
 }

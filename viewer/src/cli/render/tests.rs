@@ -177,9 +177,9 @@ fn sizes_are_two_positive_numbers() {
 
 #[test]
 fn an_unknown_method_or_palette_is_answered_with_those_that_there_are() {
-    let error = error_of(&["--method", "sprites"]);
+    let error = error_of(&["--method", "volumes"]);
     assert!(
-        error.contains("--method") && error.contains("packed, octaves, fbm, lit"),
+        error.contains("--method") && error.contains("packed, octaves, fbm, lit, sprites"),
         "{error}"
     );
     let error = error_of(&["--method", "fbm", "--palette", "pink"]);
@@ -192,7 +192,7 @@ fn an_unknown_method_or_palette_is_answered_with_those_that_there_are() {
 #[test]
 fn options_of_another_method_are_refused_and_say_whose_they_are() {
     for (option, value, owners) in [
-        ("--upper", "0.5", vec!["packed"]),
+        ("--upper", "0.5", vec!["packed", "sprites"]),
         ("--octaves", "4", vec!["octaves"]),
         ("--formation-interval", "60", vec!["octaves", "lit"]),
         ("--domes", "1,1,1", vec!["octaves"]),
@@ -208,6 +208,12 @@ fn options_of_another_method_are_refused_and_say_whose_they_are() {
         ("--m", "2", vec!["lit"]),
         ("--moon", "0", vec!["lit"]),
         ("--shadow", "s.png", vec!["lit"]),
+        ("--behind", "fbm", vec!["sprites"]),
+        ("--behind-cover", "0.5", vec!["sprites"]),
+        ("--sight", "40000", vec!["sprites"]),
+        ("--ring", "0", vec!["sprites"]),
+        ("--billboards", "9000", vec!["sprites"]),
+        ("--formation", "0.5", vec!["sprites"]),
     ] {
         for method in Method::ALL.map(Method::name) {
             let args = ["--method", method, option, value];
@@ -231,7 +237,8 @@ fn options_of_another_method_are_refused_and_say_whose_they_are() {
 /// An option of one method that is missing among the owners would be taken, and ignored, by the others.
 #[test]
 fn every_option_of_one_method_has_its_owners() {
-    let command = LitArgs::augment_args(CloudArgs::augment_args(clap::Command::new("clouds")));
+    let command = CloudArgs::augment_args(clap::Command::new("clouds"));
+    let command = SpriteArgs::augment_args(LitArgs::augment_args(command));
     let options: Vec<&str> = command
         .get_arguments()
         .map(|a| a.get_id().as_str())
@@ -240,6 +247,47 @@ fn every_option_of_one_method_has_its_owners() {
         options,
         owners().map(|(option, _)| option).collect::<Vec<_>>()
     );
+}
+
+#[test]
+fn options_of_sprites_reach_the_sky_and_have_their_ranges() {
+    let given = params(&[
+        "--method",
+        "sprites",
+        "--behind",
+        "lit",
+        "--behind-cover",
+        "0.3",
+        "--sight",
+        "40000",
+        "--ring",
+        "8000",
+        "--billboards",
+        "20000",
+        "--formation",
+        "0.6",
+    ]);
+    let wanted = welkin_runtime::SpriteParams {
+        behind: Method::Lit,
+        behind_cover: 0.3,
+        distance_m: 40_000.0,
+        ring_radius_m: 8000.0,
+        billboards_beyond_m: 20_000.0,
+        formation: 0.6,
+    };
+    assert_eq!(given.sprites, wanted);
+    for (option, value, expected) in [
+        ("--ring", "100", "0 or a number from 4000 to 60000 metres"),
+        ("--sight", "1", "8000 to 60000 metres"),
+        ("--billboards", "NaN", "2000 to 60000 metres"),
+        ("--formation", "2", "0 to 1"),
+    ] {
+        let error = error_of(&["--method", "sprites", option, value]);
+        assert!(
+            error.contains(option) && error.contains(expected),
+            "{error}"
+        );
+    }
 }
 
 #[test]
