@@ -31,6 +31,9 @@ const LIT: [&str; 5] = [
 
 /// Names of the rows of a method, in the order of the table.
 fn rows_of(method: &str) -> Vec<String> {
+    if method == "sprites" {
+        return rows_of_sprites();
+    }
     let mut labels = ["noon", "sunset", "night", "alone"]
         .map(str::to_string)
         .to_vec();
@@ -46,6 +49,12 @@ fn rows_of(method: &str) -> Vec<String> {
         .iter()
         .map(|label| format!("{method}, {label}"))
         .collect()
+}
+
+fn rows_of_sprites() -> Vec<String> {
+    let labels = ["no clouds", "sprites alone", "ring", "ring made anew"];
+    let of = |field: &str| labels.map(|label| format!("sprites, {field}, {label}"));
+    ["sparse", "broken", "overcast"].map(of).concat()
 }
 
 fn names(passes: &[Value]) -> Vec<&str> {
@@ -86,9 +95,9 @@ fn with_all_methods_it_is_one_table_with_each_method_s_memory() {
     let (skies, references) = report["passes"]
         .as_array()
         .unwrap()
-        .split_at(5 + 12 + 5 + 9);
+        .split_at(5 + 12 + 5 + 9 + 12);
     assert_eq!(names(references), REFERENCES);
-    let expected: Vec<String> = ["packed", "octaves", "fbm", "lit"]
+    let expected: Vec<String> = ["packed", "octaves", "fbm", "lit", "sprites"]
         .into_iter()
         .flat_map(rows_of)
         .collect();
@@ -99,8 +108,12 @@ fn with_all_methods_it_is_one_table_with_each_method_s_memory() {
         assert!(sky["memory_bytes"].as_u64().unwrap() > 0, "{sky}");
         let [prepare, map] = ["prepare_ms", "map_ms"].map(|key| sky[key].as_f64().unwrap());
         assert!(prepare > 0.0 && map >= 0.0, "{sky}");
-        // All others draw a map off screen, every frame.
-        assert!(method == "packed" || map > 0.0, "{sky}");
+        // The others but sprites draw a map off screen, every frame.
+        let has_map = !["packed", "sprites"].contains(&method);
+        assert!(!has_map || map > 0.0, "{sky}");
+        let draws_sprites =
+            method == "sprites" && !sky["name"].as_str().unwrap().contains("no clouds");
+        assert_eq!(sky["sprites"].is_array(), draws_sprites, "{sky}");
     }
     for reference in references {
         for key in ["method", "prepare_ms", "map_ms", "memory_bytes"] {

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use common::{RECIPE, bake, failed, pack, render, render_of, run, view};
 
-const METHODS: [&str; 4] = ["packed", "octaves", "fbm", "lit"];
+const METHODS: [&str; 5] = ["packed", "octaves", "fbm", "lit", "sprites"];
 
 /// Draws a frame with these words, and one with each of the options beside them: they differ.
 fn each_option_changes(words: &[&str], options: &[&[&str]]) {
@@ -60,6 +60,21 @@ fn the_six_parameters_are_every_method_s() {
         let evening = ["--method", method, "--time", "0.74", "--azimuth", "270"];
         each_option_changes(&evening, &[&["--sunset", "1"]]);
     }
+}
+
+#[test]
+fn options_of_sprites_change_their_clouds() {
+    let options: [&[&str]; 8] = [
+        &["--behind", "fbm", "--behind-cover", "0.6"],
+        &["--behind", "lit", "--behind-cover", "0.6"],
+        &["--sight", "8000"],
+        &["--ring", "4000"],
+        &["--billboards", "2000"],
+        &["--formation", "0.6"],
+        &["--upper", "1"],
+        &["--up", "1200", "--north", "300"],
+    ];
+    each_option_changes(&["--method", "sprites", "--at", "30"], &options);
 }
 
 #[test]
@@ -219,8 +234,13 @@ fn a_flash_lights_the_clouds_of_every_method_while_it_lasts() {
 fn rays_and_rain_come_over_the_clouds_of_every_method() {
     for method in METHODS {
         let towards_the_sun = ["--method", method, "--elevation", "45", "--time", "0.4"];
-        let options: [&[&str]; 3] = [&["--rays", "1"], &["--rain", "1"], &["--rain", "0.3"]];
-        each_option_changes(&towards_the_sun, &options);
+        each_option_changes(&towards_the_sun, &[&["--rain", "1"], &["--rain", "0.3"]]);
+        // Rays come of the clouds of a dome: of sprites, of that behind them.
+        let dome: &[&str] = match method {
+            "sprites" => &["--behind", "lit", "--behind-cover", "0.6"],
+            _ => &[],
+        };
+        each_option_changes(&[&towards_the_sun, dome].concat(), &[&["--rays", "1"]]);
     }
     // Nothing else moves in still air by day. Drops are thin: it takes a narrow view for so few pixels to show them.
     let folder = tempfile::tempdir().unwrap();

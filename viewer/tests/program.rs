@@ -111,7 +111,7 @@ fn what_cannot_be_drawn_is_told_and_leaves_nothing() {
         &["32768x32768", "--size"],
     );
     failed(
-        &attempt(pack(), "frame.png", &["--method", "sprites"]),
+        &attempt(pack(), "frame.png", &["--method", "volumes"]),
         2,
         &["--method", "packed"],
     );

@@ -13,7 +13,8 @@ use welkin_pack::Overwrite;
 
 /// Small textures: what is tested here is the program, not the beauty of its pictures.
 pub const RECIPE: &str = "[clouds]\nsize = 64\n[stars]\nsize = 64\ncount = 50\n[galaxy]\nsize = 32\n\
-     [fbm]\nsize = 128\n[flares]\nsize = 64\n[layers]\nsize = 64\n";
+     [fbm]\nsize = 128\n[flares]\nsize = 64\n[layers]\nsize = 64\n\
+     [sprites]\nsize = 128\n";
 
 /// A pack, baked once for all tests.
 pub fn pack() -> &'static Path {
