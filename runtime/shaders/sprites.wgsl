@@ -196,7 +196,16 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     return SpriteVaryings(clip, uv, level, vec4f(seen, opacity), light * (clearness * own.sun.w));
 }
 
-// With colours at greys of one quarter and three quarters.
+// Radiance at a grey of one quarter and of three quarters.
+fn sprite_dark(linear: SpriteVaryings) -> vec3f {
+    return max(linear.light.rgb - 0.25 * linear.relief, vec3f(0.0));
+}
+
+fn sprite_bright(linear: SpriteVaryings) -> vec3f {
+    return linear.light.rgb + 0.25 * linear.relief;
+}
+
+// With colours in place of both.
 fn sprite_between(linear: SpriteVaryings, dark: vec3f, bright: vec3f) -> SpriteVaryings {
     let light = vec4f(0.5 * (dark + bright), linear.light.w);
     return SpriteVaryings(linear.position, linear.uv, linear.level, light, 2.0 * (bright - dark));
@@ -207,20 +216,14 @@ fn sprite_between(linear: SpriteVaryings, dark: vec3f, bright: vec3f) -> SpriteV
 @vertex
 fn vs_sprite(@builtin(vertex_index) index: u32) -> SpriteVaryings {
     let linear = sprite_vertex(index);
-    let step = 0.25 * linear.relief;
-    let bright = display_colour(linear.light.rgb + step);
-    let dark = display_colour(max(linear.light.rgb - step, vec3f(0.0)));
-    return sprite_between(linear, dark, bright);
+    return sprite_between(linear, display_colour(sprite_dark(linear)), display_colour(sprite_bright(linear)));
 }
 
 // The same for a picture of the ring.
 @vertex
 fn vs_ring_sprite(@builtin(vertex_index) index: u32) -> SpriteVaryings {
     let linear = sprite_vertex(index);
-    let step = 0.25 * linear.relief;
-    let bright = ring_stored(linear.light.rgb + step);
-    let dark = ring_stored(max(linear.light.rgb - step, vec3f(0.0)));
-    return sprite_between(linear, dark, bright);
+    return sprite_between(linear, ring_stored(sprite_dark(linear)), ring_stored(sprite_bright(linear)));
 }
 
 @fragment

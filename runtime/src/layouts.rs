@@ -176,7 +176,7 @@ fn array(texture: &wgpu::Texture) -> wgpu::TextureView {
 }
 
 /// Everything is seen by both stages: the flare asks for the clouds before the sun in its vertex stage.
-fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+pub(crate) fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
@@ -185,7 +185,10 @@ fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
     }
 }
 
-fn texture(filterable: bool, view_dimension: wgpu::TextureViewDimension) -> wgpu::BindingType {
+pub(crate) fn texture(
+    filterable: bool,
+    view_dimension: wgpu::TextureViewDimension,
+) -> wgpu::BindingType {
     wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Float { filterable },
         view_dimension,

@@ -5,6 +5,7 @@ use welkin_pack::SheetCell;
 use super::device::STRIDE;
 use super::outline::Outline;
 use super::ring;
+use crate::layouts::{entry, texture};
 use crate::pipeline::{depth_state, multisample_state, vertex_state};
 use crate::program::Common;
 use crate::shader::Output;
@@ -58,8 +59,8 @@ impl GroupLayouts {
         let array = wgpu::TextureViewDimension::D2Array;
         GroupLayouts {
             sprites: layout(&[
-                texture(3, plane),
-                texture(4, plane),
+                picture(3, plane),
+                picture(4, plane),
                 view,
                 uniform(6, true, size_of::<SpriteBlock>()),
                 uniform(10, false, OUTLINES_BYTES),
@@ -68,8 +69,8 @@ impl GroupLayouts {
             ring: layout(&[
                 view,
                 uniform(7, false, size_of::<RingUniforms>()),
-                texture(8, array),
-                texture(9, array),
+                picture(8, array),
+                picture(9, array),
             ]),
         }
     }
@@ -82,15 +83,8 @@ const INSTANCES: wgpu::BindingType = wgpu::BindingType::Texture {
     multisampled: false,
 };
 
-fn texture(binding: u32, dimension: wgpu::TextureViewDimension) -> wgpu::BindGroupLayoutEntry {
-    entry(
-        binding,
-        wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: true },
-            view_dimension: dimension,
-            multisampled: false,
-        },
-    )
+fn picture(binding: u32, dimension: wgpu::TextureViewDimension) -> wgpu::BindGroupLayoutEntry {
+    entry(binding, texture(true, dimension))
 }
 
 fn uniform(binding: u32, dynamic: bool, bytes: usize) -> wgpu::BindGroupLayoutEntry {
@@ -102,15 +96,6 @@ fn uniform(binding: u32, dynamic: bool, bytes: usize) -> wgpu::BindGroupLayoutEn
             min_binding_size: wgpu::BufferSize::new(bytes as u64),
         },
     )
-}
-
-fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
-    wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-        ty,
-        count: None,
-    }
 }
 
 /// Bytes of the outlines of all cells.
