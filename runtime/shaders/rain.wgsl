@@ -75,7 +75,7 @@ fn vs_rain(@builtin(vertex_index) index: u32) -> RainVaryings {
         dot(position, uniforms.camera.clip_y.xyz),
         dot(position, uniforms.camera.clip_w.xyz),
     );
-    let colour = finish_undithered(rain.streak.rgb);
+    let colour = display_colour(rain.streak.rgb);
     return RainVaryings(vec4f(clip.xy, FAR_DEPTH * clip.z, clip.z), vec3f(side, opacity), colour);
 }
 

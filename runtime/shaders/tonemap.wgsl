@@ -21,7 +21,7 @@ fn dither_noise(pixel: vec2f) -> f32 {
     return fract(52.9829189 * fract(dot(pixel - 0.5, vec2f(0.06711056, 0.00583715)))) - 0.5;
 }
 
-// As the target has it, without dither.
+// As the target has it, without dither: what a frame or a vertex has of one colour can be told once.
 fn display_colour(radiance: vec3f) -> vec3f {
     if OUTPUT == OUTPUT_RADIANCE {
         return radiance;
@@ -34,28 +34,16 @@ fn display_colour(radiance: vec3f) -> vec3f {
 }
 
 fn finish(radiance: vec3f, pixel: vec2f) -> vec4f {
+    let colour = display_colour(radiance);
     if OUTPUT == OUTPUT_RADIANCE {
-        return vec4f(radiance, 1.0);
+        return vec4f(colour, 1.0);
     }
-    let display = tone_curve(radiance * uniforms.tonemap.display.x);
     let step = uniforms.tonemap.display.y * dither_noise(pixel);
     if OUTPUT == OUTPUT_ENCODED {
-        return vec4f(srgb_encode(display) + step, 1.0);
+        return vec4f(colour + step, 1.0);
     }
     // The hardware encodes. Around a value x a step of the encoding is as wide as its slope there, and
     // 2 sqrt(x) is the slope of the curve's near relative, the square.
-    let root = display * inverseSqrt(max(display, vec3f(1e-6)));
-    return vec4f(display + step * (2.0 * root + abs(step)), 1.0);
-}
-
-// The same without dither: what a frame has of one colour can be told once.
-fn finish_undithered(radiance: vec3f) -> vec3f {
-    if OUTPUT == OUTPUT_RADIANCE {
-        return radiance;
-    }
-    let display = tone_curve(radiance * uniforms.tonemap.display.x);
-    if OUTPUT == OUTPUT_ENCODED {
-        return srgb_encode(display);
-    }
-    return display;
+    let root = colour * inverseSqrt(max(colour, vec3f(1e-6)));
+    return vec4f(colour + step * (2.0 * root + abs(step)), 1.0);
 }

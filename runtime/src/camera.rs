@@ -120,6 +120,15 @@ impl Camera {
         }
     }
 
+    /// Width and height of a pixel in the middle of the screen, in radians.
+    pub(crate) fn pixel_rad(&self) -> [f32; 2] {
+        let (rays, viewport) = (self.rays(), self.viewport());
+        [
+            2.0 * rays.right.length() / viewport.x,
+            2.0 * rays.up.length() / viewport.y,
+        ]
+    }
+
     /// Width and height of the target in pixels, neither of them 0.
     pub fn viewport(&self) -> Vec2 {
         Vec2::new(

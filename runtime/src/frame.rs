@@ -88,11 +88,7 @@ impl Facts {
         let seconds = finite(seconds);
         let light = Light::new(&self.sky, self.noon_elevation_rad, params.time);
         let night = if params.stars { light.night } else { 0.0 };
-        let (rays, viewport) = (camera.rays(), camera.viewport());
-        let pixel_rad = [
-            2.0 * rays.right.length() / viewport.x,
-            2.0 * rays.up.length() / viewport.y,
-        ];
+        let (rays, pixel_rad) = (camera.rays(), camera.pixel_rad());
         let pixel = pixel_rad[0].max(pixel_rad[1]);
         let stands = camera.position_m().as_dvec3();
         let view = CloudView {
@@ -113,19 +109,16 @@ impl Facts {
             Method::Lit => lit::luminary(&light, params.lit.moon),
             _ => light,
         };
-        let overcast = match params.method {
-            _ if whole.method == Method::Sprites => sprites::overcast(&sprites),
-            Method::Packed | Method::Sprites => {
-                packed::overcast(&packed, &clouds, self.cloud_means)
-            }
+        let overcast = match whole.method {
+            Method::Packed => packed::overcast(&packed, &clouds, self.cloud_means),
             Method::Octaves => octaves::overcast(&octaves, &clouds),
             Method::Fbm => fbm::overcast(&fbm, &clouds),
             Method::Lit => lit::overcast(&lit),
+            Method::Sprites => sprites::overcast(&sprites),
         };
-        let closing = if whole.method == Method::Sprites {
-            sprites::closing(&whole, stands.y as f32, self.cloud_heights_m)
-        } else {
-            clouds::closing(whole.cover)
+        let closing = match whole.method {
+            Method::Sprites => sprites::closing(&whole, stands.y as f32, self.cloud_heights_m),
+            _ => clouds::closing(whole.cover),
         };
         let overcast = vec4(overcast, closing);
         let camera = camera_uniforms(camera);
@@ -156,7 +149,7 @@ impl Facts {
 }
 
 /// Seconds that are not finite are 0.
-fn finite(seconds: f64) -> f64 {
+pub(crate) fn finite(seconds: f64) -> f64 {
     if seconds.is_finite() { seconds } else { 0.0 }
 }
 

@@ -127,17 +127,15 @@ impl Oktas {
     /// How many oktas parameters show on average, 0..=8. [`Method::Sprites`] counts the ground below clouds instead of the sky, as its
     /// cover does: clouds in space hide more of the sky than they stand over, the more the taller they are.
     pub fn shown(&self, params: &SkyParams) -> f32 {
-        if params.method == Method::Sprites {
-            return OKTAS * params.clamped().cover;
-        }
         // Neither camera nor moment change what is read here.
         let camera = Camera::looking(0.0, 0.0, 1.0, [1, 1]);
         let uniforms = self.facts.uniforms(params, &camera, 0.0, 0.0);
         let share = |opacity: f32| match params.method {
-            Method::Packed | Method::Sprites => self.packed_share(&uniforms.packed, opacity),
+            Method::Packed => self.packed_share(&uniforms.packed, opacity),
             Method::Octaves => octaves_share(&uniforms.octaves, opacity),
             Method::Fbm => self.fbm_share(&uniforms.fbm, opacity),
             Method::Lit => lit_share(&uniforms.lit, opacity),
+            Method::Sprites => params.clamped().cover,
         };
         let [hazy, clearness] = haze(&uniforms);
         OKTAS * ((1.0 - hazy) * share(OPAQUE) + hazy * share(OPAQUE / clearness))

@@ -256,7 +256,7 @@ impl Sky {
         let params = whole.dome();
         let mut uniforms = self.facts.uniforms(&whole, camera, seconds, self.step);
         self.fit_sprites(&whole);
-        let seconds = if seconds.is_finite() { seconds } else { 0.0 };
+        let seconds = frame::finite(seconds);
         let frame = |uniforms| sprites::frame::Frame {
             params: &whole,
             camera,
@@ -276,8 +276,10 @@ impl Sky {
                 &self.shared,
                 &frame(&uniforms),
             );
-            let sun = Vec3::from_slice(&uniforms.sky.sun);
-            uniforms.flares.light[0] *= pass.clear_towards_sun(&frame(&uniforms), sun);
+            if uniforms.flares.light[0] > 0.0 {
+                let sun = Vec3::from_slice(&uniforms.sky.sun);
+                uniforms.flares.light[0] *= pass.clear_towards_sun(&frame(&uniforms), sun);
+            }
         }
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&uniforms));
         let states = match params.method {

@@ -1,7 +1,6 @@
 //! Twin of sprites.wgsl.
 
 use glam::{Vec2, Vec3, Vec4};
-use welkin_runtime::light::luminance;
 use welkin_runtime::sprites::instances::Instance;
 use welkin_runtime::sprites::locks::{LOCK, NEAR};
 use welkin_runtime::sprites::outline::Outline;
@@ -258,14 +257,4 @@ fn within(corners: [&(Vec2, Corner); 3], place: Vec2) -> Option<(Vec4, Vec3)> {
         relief += corner.relief * share;
     }
     Some((light, relief))
-}
-
-/// How much a picture changes, as one number: the mean difference of its luminance.
-pub fn change(before: &[Vec3], after: &[Vec3]) -> f32 {
-    let sum: f32 = before
-        .iter()
-        .zip(after)
-        .map(|(a, b)| luminance((*a - *b).abs()))
-        .sum();
-    sum / before.len() as f32
 }

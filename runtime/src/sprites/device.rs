@@ -63,38 +63,19 @@ pub fn write_amounts(queue: &wgpu::Queue, texture: &wgpu::Texture, amounts: &[u8
 
 /// Rows of 256 clouds.
 pub fn amounts_texture(device: &wgpu::Device, rows: u32) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("amounts of clouds"),
-        size: wgpu::Extent3d {
-            width: AMOUNTS_SIDE,
-            height: rows.max(1),
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::R8Unorm,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    })
+    let size = [AMOUNTS_SIDE, rows.max(1)];
+    table(
+        device,
+        "amounts of clouds",
+        wgpu::TextureFormat::R8Unorm,
+        size,
+    )
 }
 
 /// Rows of 256 sprites.
 pub fn instances_texture(device: &wgpu::Device, rows: u32) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("sprites"),
-        size: wgpu::Extent3d {
-            width: TEXELS * A_ROW,
-            height: rows,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba32Uint,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    })
+    let size = [TEXELS * A_ROW, rows];
+    table(device, "sprites", wgpu::TextureFormat::Rgba32Uint, size)
 }
 
 /// Texels of an instance.
@@ -136,21 +117,35 @@ pub fn index_buffers(device: &wgpu::Device, scene: &Scene) -> [wgpu::Buffer; 2] 
 }
 
 /// An empty buffer of uniforms.
-pub fn uniform_buffer(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
-    buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM)
-}
-
-fn buffer(
-    device: &wgpu::Device,
-    label: &str,
-    size: u64,
-    usage: wgpu::BufferUsages,
-) -> wgpu::Buffer {
+pub fn uniform_buffer(device: &wgpu::Device, label: &str, size: u64) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
         size,
-        usage: usage | wgpu::BufferUsages::COPY_DST,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
+    })
+}
+
+/// A texture that is written from here and read as it is.
+fn table(
+    device: &wgpu::Device,
+    label: &str,
+    format: wgpu::TextureFormat,
+    [width, height]: [u32; 2],
+) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
     })
 }
 

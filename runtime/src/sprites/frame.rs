@@ -4,7 +4,6 @@ use glam::{DVec3, Vec3};
 
 use super::in_field;
 use super::ring::Station;
-use crate::params::LEAST_RING_M;
 use crate::uniforms::{SpriteView, Uniforms};
 use crate::{Camera, DepthConfig, SkyParams};
 
@@ -37,18 +36,13 @@ pub fn cell_texels(sheet: &wgpu::Texture) -> f32 {
 /// What a ring for this frame would be made for.
 pub fn station(frame: &Frame<'_>, viewer_m: DVec3, sight_m: f32, heights_m: [f64; 2]) -> Station {
     let own = &frame.uniforms.sprites;
-    let radius = frame.params.sprites.ring_radius_m;
     let params = frame.params;
     Station {
         place_m: viewer_m,
-        radius_m: if radius < LEAST_RING_M {
-            0.0
-        } else {
-            f64::from(radius)
-        },
+        radius_m: f64::from(params.sprites.ring_radius_m),
         distance_m: f64::from(sight_m),
         heights_m,
-        sun: Vec3::new(own.sun[0], own.sun[1], own.sun[2]),
+        sun: Vec3::from_slice(&own.sun),
         look: [
             own.colour[0],
             own.colour[2],
@@ -78,9 +72,8 @@ pub fn screen_view(
     };
     let [x, y, z, _] = camera.clip_w;
     let height = frame.camera.position_m().y;
-    let pixel = 2.0
-        * (Vec3::new(camera.right[0], camera.right[1], camera.right[2]).length() / camera.right[3])
-            .max(Vec3::new(camera.up[0], camera.up[1], camera.up[2]).length() / camera.up[3]);
+    let [pixel_width, pixel_height] = frame.camera.pixel_rad();
+    let pixel = pixel_width.max(pixel_height);
     SpriteView {
         clip_x: camera.clip_x,
         clip_y: camera.clip_y,

@@ -288,7 +288,9 @@ impl Pass {
             let offset = (1 + picture as u64) * STRIDE;
             queue.write_buffer(&self.views, offset, bytemuck::bytes_of(&view));
             let sides = planes(view.clip_x, view.clip_y, view.clip_w);
-            self.find_picture(&station, &sides);
+            self.find(station.place_m, station.distance_m, &sides, |block| {
+                station.holds(block)
+            });
             let [from, to] = [parts[0], parts[0] + 1].map(|i| i * self.found.len() / parts[1]);
             for index in from..to {
                 let (_, block) = self.found[index];
@@ -305,16 +307,23 @@ impl Pass {
         pictures
     }
 
-    /// Finds the blocks of a picture of a ring, the farthest first.
-    fn find_picture(&mut self, station: &Station, sides: &[Vec3]) {
+    /// Finds the blocks within a distance of a place of the field that are wanted and in view from there, the farthest first.
+    fn find(
+        &mut self,
+        place_m: DVec3,
+        distance_m: f64,
+        sides: &[Vec3],
+        wanted: impl Fn(BlockId) -> bool,
+    ) {
         self.found.clear();
-        for block in around(station.place_m, station.distance_m) {
-            if station.holds(block) && self.scene.is_in_view(block, station.place_m, sides) {
-                let distance = block.distance_of_middle_m(station.place_m);
-                self.found.push((distance, block));
+        for block in around(place_m, distance_m) {
+            if wanted(block) && self.scene.is_in_view(block, place_m, sides) {
+                self.found
+                    .push((block.distance_of_middle_m(place_m), block));
             }
         }
-        farthest_first(&mut self.found);
+        self.found
+            .sort_unstable_by(|(a, block), (b, other)| b.total_cmp(a).then(block.cmp(other)));
     }
 
     fn gather_screen(
@@ -329,15 +338,9 @@ impl Pass {
         let Some(ring) = self.ring else {
             return;
         };
-        self.found.clear();
-        for block in around(viewer_m, f64::from(sight_m)) {
-            let shows = ring.share_of_sprites(block) > 0.0;
-            if shows && self.scene.is_in_view(block, viewer_m, &sides) {
-                self.found
-                    .push((block.distance_of_middle_m(viewer_m), block));
-            }
-        }
-        farthest_first(&mut self.found);
+        self.find(viewer_m, f64::from(sight_m), &sides, |block| {
+            ring.share_of_sprites(block) > 0.0
+        });
         for index in 0..self.found.len() {
             let (_, block) = self.found[index];
             let share = ring.share_of_sprites(block);
@@ -445,8 +448,4 @@ struct Pictures {
     goes_on: bool,
     /// Where the draws of each begin and end.
     draws: [Option<[usize; 2]>; ring::PICTURES],
-}
-
-fn farthest_first(blocks: &mut [(f64, BlockId)]) {
-    blocks.sort_unstable_by(|(a, block), (b, other)| b.total_cmp(a).then(block.cmp(other)));
 }

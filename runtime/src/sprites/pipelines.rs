@@ -6,6 +6,7 @@ use super::device::STRIDE;
 use super::outline::Outline;
 use super::ring;
 use crate::layouts::{entry, texture};
+use crate::map::target;
 use crate::pipeline::{depth_state, multisample_state, vertex_state};
 use crate::program::Common;
 use crate::shader::Output;
@@ -121,20 +122,8 @@ pub fn picture_format(output: Output) -> wgpu::TextureFormat {
 
 /// An array of the ring's pictures.
 pub fn pictures(device: &wgpu::Device, output: Output) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("ring of impostors"),
-        size: wgpu::Extent3d {
-            width: ring::SIDE,
-            height: ring::SIDE,
-            depth_or_array_layers: ring::PICTURES as u32,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: picture_format(output),
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    })
+    let size = [ring::SIDE, ring::SIDE, ring::PICTURES as u32];
+    target(device, "ring of impostors", picture_format(output), size, 1)
 }
 
 impl Pipelines {
@@ -144,13 +133,13 @@ impl Pipelines {
         let layout =
             |own: &wgpu::BindGroupLayout| common.layouts.pipeline_layout(device, Some(own));
         let (sprites, ring) = (layout(&groups.sprites), layout(&groups.ring));
-        let target = common.config.target_format;
+        let screen = common.config.target_format;
         let make = |draw: Draw<'_>| pipeline(common, module, draw);
         Pipelines {
             sprites: make(Draw {
                 layout: &sprites,
                 entries: ["vs_sprite", "fs_sprite"],
-                format: target,
+                format: screen,
                 on_screen: true,
                 topology: wgpu::PrimitiveTopology::TriangleList,
             }),
@@ -164,7 +153,7 @@ impl Pipelines {
             ring: make(Draw {
                 layout: &ring,
                 entries: ["vs_ring", "fs_ring"],
-                format: target,
+                format: screen,
                 on_screen: true,
                 topology: wgpu::PrimitiveTopology::TriangleStrip,
             }),

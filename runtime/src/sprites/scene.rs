@@ -5,7 +5,7 @@
 
 use glam::{DVec3, Vec3, Vec4};
 use welkin_pack::Field;
-use welkin_pack::field::{Hour, SECTION_SIDE_M};
+use welkin_pack::field::SECTION_SIDE_M;
 
 use super::formation;
 use super::grid::{BlockId, around, slots_a_side};
@@ -24,8 +24,6 @@ pub struct Scene {
     sections: Vec<Section>,
     a_side: usize,
     ranks: Vec<f32>,
-    /// Light over the day.
-    pub hours: Vec<Hour>,
     /// How far each cloud has formed, in 255ths, as the device reads it: a row of 256 clouds after the other.
     pub amounts: Vec<u8>,
     /// The sections that each cloud has sprites in.
@@ -86,7 +84,6 @@ impl Scene {
         Scene {
             a_side: field.sections.max(1) as usize,
             ranks: field.clouds.iter().map(|cloud| cloud.rank).collect(),
-            hours: field.hours.clone(),
             amounts: vec![0; field.clouds.len().next_multiple_of(AMOUNTS_SIDE as usize)],
             sections_of,
             versions: vec![0; sections.len()],
