@@ -32,8 +32,8 @@ enum Wake {
     Baked(Box<Result<Baked, String>>),
     /// The watched recipe or a file that it names was saved.
     RecipeSaved,
-    /// The device is gone.
-    DeviceLost(String),
+    /// The device of this number is gone.
+    DeviceLost(u64, String),
     /// The device refused something.
     DeviceError(String),
 }

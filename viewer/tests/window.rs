@@ -73,6 +73,14 @@ fn keys_choose_methods_and_weathers_and_turn_and_fly() {
     eventually("the viewer rises", || {
         saved(&desktop, &program).view.up_m > view.up_m
     });
+    // They are loaded once the picture is theirs.
+    let before = desktop.screen();
+    std::fs::write(desktop.file("sky.toml"), "rate = 0\ncover = 0.125\n").unwrap();
+    program.key("ctrl+o");
+    eventually("the settings are loaded", || {
+        desktop.screen().sky_differs(&before)
+    });
+    assert_eq!(saved(&desktop, &program).params.cover, 0.125);
     program.key("h");
     eventually("the panel is gone", || !desktop.screen().has_panel());
 }
@@ -82,23 +90,25 @@ fn the_pointer_moves_every_slider_of_the_paper_and_turns_the_view() {
     let desktop = Desktop::new();
     let program = open(&desktop, &[pack().to_str().unwrap()]);
     let usual = saved(&desktop, &program);
+    // A save is carried out after all that came before it was drawn.
+    let seen = || assert_eq!(saved(&desktop, &program).rate, 0.0);
     // Down the panel, a drag along each row: those of the six must answer, in the paper's order.
     let mut moved: Vec<&str> = Vec::new();
     let (mut before, mut row_px) = (usual, 60);
     while moved.len() < 6 && row_px < 260 {
-        program.drag([125, row_px], [185, row_px]);
+        program.drag([125, row_px], [185, row_px], seen);
         let now = saved(&desktop, &program);
         let changed = |key: &&welkin_controls::Key| key.text(&now) != key.text(&before);
         let names: Vec<&str> = KEYS.iter().filter(changed).map(|key| key.name).collect();
         assert!(names.len() <= 1, "one slider at a time: {names:?}");
         moved.extend(names.first().filter(|name| moved.last() != Some(name)));
-        (before, row_px) = (now, row_px + 8);
+        (before, row_px) = (now, row_px + 11);
     }
     let six: Vec<&str> = KEYS[..6].iter().map(|key| key.name).collect();
     assert_eq!(moved, six);
     // On the sky, the same drag turns the view and no slider.
     let middle = [(PANEL_PX + SIZE_PX[0]) / 2, SIZE_PX[1] / 2];
-    program.drag(middle, [middle[0] - 100, middle[1]]);
+    program.drag(middle, [middle[0] - 100, middle[1]], seen);
     let turned = saved(&desktop, &program);
     let degrees = turned.view.azimuth_deg - before.view.azimuth_deg;
     assert!(degrees > 1.0, "{degrees}");
@@ -179,7 +189,7 @@ fn a_saved_recipe_is_baked_and_shown_and_a_broken_one_is_told() {
     std::fs::write(&recipe, format!("seed = 77\n{RECIPE}")).unwrap();
     eventually("the new sky is shown", || {
         let screen = desktop.screen();
-        assert!(screen.is_sky(), "no frame is black");
+        assert!(screen.is_sky(), "no frame is black: {:?}", screen.darkest());
         screen.sky_differs(&first)
     });
     assert_eq!(seed(&folder), Some(77));

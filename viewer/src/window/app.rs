@@ -32,6 +32,8 @@ pub struct App {
     pub failure: Option<anyhow::Error>,
     state: State,
     graphics: Option<Graphics>,
+    /// Number of the device that is open: one that was left tells of its end too.
+    device: u64,
     /// Kept over a lost device, with what is open and where it is scrolled to.
     ui: egui::Context,
     proxy: EventLoopProxy<Wake>,
@@ -53,6 +55,7 @@ impl App {
             failure: None,
             state,
             graphics: None,
+            device: 0,
             ui: panel::context(),
             baker: Baker::new(proxy.clone()),
             watched: args.watch.clone(),
@@ -84,12 +87,13 @@ impl App {
     }
 
     fn open_graphics(&mut self, event_loop: &ActiveEventLoop, window: Arc<Window>) -> Result<()> {
+        self.device += 1;
         let graphics = Graphics::open(
             window,
             event_loop.owned_display_handle(),
             &self.state.source.pack,
             self.ui.clone(),
-            &self.proxy,
+            (self.device, &self.proxy),
         )?;
         self.state.adapter.clone_from(&graphics.gpu.adapter);
         graphics.window.request_redraw();
@@ -344,7 +348,10 @@ impl ApplicationHandler<Wake> for App {
             Wake::Baking(step, share) => self.state.baking = Some((step, share)),
             Wake::Baked(baked) => self.take(*baked),
             Wake::RecipeSaved => self.bake(),
-            Wake::DeviceLost(reason) => self.reopen_graphics(event_loop, &reason),
+            Wake::DeviceLost(number, reason) if number == self.device => {
+                self.reopen_graphics(event_loop, &reason);
+            }
+            Wake::DeviceLost(..) => {}
             Wake::DeviceError(text) => self.state.tell_error(text),
         }
         if let Some(graphics) = &self.graphics {

@@ -34,7 +34,7 @@ struct Panel {
 }
 
 impl Graphics {
-    /// Opens a device for the window and uploads the pack.
+    /// Opens a device for the window and uploads the pack. The device's losses are told with its number.
     ///
     /// # Errors
     /// No adapter that draws to the window, or none that takes the pack.
@@ -43,7 +43,7 @@ impl Graphics {
         display: OwnedDisplayHandle,
         pack: &Pack,
         ui: egui::Context,
-        proxy: &EventLoopProxy<Wake>,
+        (number, proxy): (u64, &EventLoopProxy<Wake>),
     ) -> Result<Graphics> {
         let instance = wgpu::Instance::new(
             wgpu::InstanceDescriptor::new_with_display_handle_from_env(Box::new(display)),
@@ -52,7 +52,7 @@ impl Graphics {
             .create_surface(window.clone())
             .map_err(|reason| no_surface(&instance, reason))?;
         let (gpu, adapter) = Gpu::open_for(&instance, Some(&surface))?;
-        tell_losses(&gpu.device, proxy);
+        tell_losses(&gpu.device, number, proxy);
         let config = configuration(&surface, &adapter, &window)
             .ok_or_else(|| anyhow!("{}: cannot draw to this window", gpu.adapter))?;
         surface.configure(&gpu.device, &config);
@@ -251,11 +251,11 @@ fn configuration(
 }
 
 /// What the device says comes to the event loop as words, and never as a panic.
-fn tell_losses(device: &wgpu::Device, proxy: &EventLoopProxy<Wake>) {
+fn tell_losses(device: &wgpu::Device, number: u64, proxy: &EventLoopProxy<Wake>) {
     let lost = proxy.clone();
     // Nobody hears of it once the loop has ended.
     device.set_device_lost_callback(move |_, reason| {
-        lost.send_event(Wake::DeviceLost(reason)).ok();
+        lost.send_event(Wake::DeviceLost(number, reason)).ok();
     });
     let error = std::sync::Mutex::new(proxy.clone());
     device.on_uncaptured_error(Arc::new(move |told: wgpu::Error| {

@@ -41,7 +41,13 @@ pub fn show(ui: &mut Ui, state: &mut State) {
         .resizable(false)
         .frame(frame)
         .show(ui, |ui| {
-            notices(ui, state);
+            // At the foot, where they move nothing that a hand is about to take.
+            if state.baking.is_some() || !state.notices.is_empty() {
+                Panel::bottom("notices")
+                    .frame(Frame::new().inner_margin(Margin::symmetric(0, 6)))
+                    .resizable(false)
+                    .show(ui, |ui| notices(ui, state));
+            }
             ScrollArea::vertical()
                 .auto_shrink(false)
                 .show(ui, |ui| controls(ui, state));
@@ -222,8 +228,5 @@ fn notices(ui: &mut Ui, state: &mut State) {
     }
     if let Some(index) = gone {
         state.notices.remove(index);
-    }
-    if !state.notices.is_empty() {
-        ui.separator();
     }
 }

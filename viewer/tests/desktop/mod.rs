@@ -90,6 +90,8 @@ impl Desktop {
         let window = program.window();
         program.xdotool(&["windowmove", "--sync", &window, "0", "0"]);
         program.xdotool(&["windowfocus", "--sync", &window]);
+        // The server draws the pointer too; in the corner it lies over nothing that is looked at.
+        program.go([0, SIZE_PX[1] - 1]);
         program
     }
 
@@ -124,7 +126,7 @@ impl Program<'_> {
 
     /// Presses a key and lets it go.
     pub fn key(&self, name: &str) {
-        self.xdotool(&["key", "--clearmodifiers", name]);
+        self.xdotool(&["key", name]);
     }
 
     /// Holds a key for a while.
@@ -132,27 +134,24 @@ impl Program<'_> {
         self.xdotool(&["keydown", name, "sleep", "0.4", "keyup", name]);
     }
 
-    /// Drags from a place to another, in steps as a hand does.
-    pub fn drag(&self, from: [u32; 2], to: [u32; 2]) {
-        let [from, middle, to] = [from, [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2], to]
-            .map(|at| at.map(|px| px.to_string()));
-        let go = |at: &[String; 2]| ["mousemove".into(), at[0].clone(), at[1].clone()];
-        let wait = ["sleep".into(), "0.15".into()];
-        let press = |action: &str| [action.to_string(), "1".into()];
-        let words: Vec<String> = [
-            &go(&from)[..],
-            &wait,
-            &press("mousedown"),
-            &wait,
-            &go(&middle),
-            &wait,
-            &go(&to),
-            &wait,
-            &press("mouseup"),
-            &wait,
-        ]
-        .concat();
-        self.xdotool(&words.iter().map(String::as_str).collect::<Vec<_>>());
+    /// Drags from a place to another, in steps as a hand does; `step` waits until a step is seen.
+    pub fn drag(&self, from: [u32; 2], to: [u32; 2], step: impl Fn()) {
+        let middle = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2];
+        self.go(from);
+        step();
+        self.xdotool(&["mousedown", "1"]);
+        step();
+        for at in [middle, to] {
+            self.go(at);
+            step();
+        }
+        self.xdotool(&["mouseup", "1"]);
+        step();
+    }
+
+    /// Puts the pointer there.
+    fn go(&self, [x, y]: [u32; 2]) {
+        self.xdotool(&["mousemove", &x.to_string(), &y.to_string()]);
     }
 
     /// Drops a file on the middle of the window, as a file manager does.

@@ -53,7 +53,13 @@ impl Screen {
 
     /// Whether there is a sky by day right of the panel: nothing there is black.
     pub fn is_sky(&self) -> bool {
-        self.sky_pixels().all(|(_, [r, g, b])| r.max(g).max(b) > 40)
+        self.darkest().1.into_iter().max() > Some(40)
+    }
+
+    /// The darkest pixel right of the panel, and where it is.
+    pub fn darkest(&self) -> ([u32; 2], [u8; 3]) {
+        let brightest_channel = |(_, colour): &([u32; 2], [u8; 3])| colour.iter().max().copied();
+        self.sky_pixels().min_by_key(brightest_channel).unwrap()
     }
 
     /// Whether the skies differ beyond a grain of dither: a pixel in a hundred, by more than four steps of 8 bits.

@@ -51,6 +51,8 @@ fn value(ui: &mut Ui, key: &Key, settings: &mut Settings) {
             unit,
         } => {
             let mut number = text.parse().unwrap_or(low);
+            // The flare is on or off for most.
+            let is_switched = key.name == "flare" && switch(ui, &mut number, high);
             let mut slider = Slider::new(&mut number, low..=high)
                 .logarithmic(logarithmic)
                 .smallest_positive(0.1)
@@ -61,7 +63,7 @@ fn value(ui: &mut Ui, key: &Key, settings: &mut Settings) {
                 slider = slider.integer();
             }
             let response = ui.add(slider);
-            if response.changed() {
+            if response.changed() || is_switched {
                 put(settings, key, &number.to_string());
             }
             if !unit.is_empty() {
@@ -81,6 +83,16 @@ fn value(ui: &mut Ui, key: &Key, settings: &mut Settings) {
         Input::Colour => colour(ui, key, settings),
         _ => field(ui, key, settings),
     }
+}
+
+/// A switch before a slider: off is 0. Whether it was used.
+fn switch(ui: &mut Ui, number: &mut f64, on: f64) -> bool {
+    let mut is_on = *number > 0.0;
+    let is_switched = ui.checkbox(&mut is_on, "").changed();
+    if is_switched {
+        *number = if is_on { on } else { 0.0 };
+    }
+    is_switched
 }
 
 fn choice(ui: &mut Ui, key: &Key, settings: &mut Settings, choices: &[&str]) {
