@@ -23,6 +23,8 @@ pub fn context() -> egui::Context {
     context.all_styles_mut(|style| {
         style.spacing.slider_width = 132.0;
         style.visuals.panel_fill = Color32::from_rgba_unmultiplied(14, 16, 20, 244);
+        style.visuals.weak_text_alpha = 0.85;
+        style.visuals.override_text_color = Some(Color32::from_gray(225));
         style.interaction.selectable_labels = false;
     });
     context
