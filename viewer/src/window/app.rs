@@ -113,6 +113,9 @@ impl App {
         ui.memory_mut(|memory| *memory = self.ui.memory(Clone::clone));
         self.ui = ui;
         match self.open_graphics(event_loop, window) {
+            Ok(()) if reason.is_empty() => self
+                .state
+                .tell_error("the GPU was left and opened again".to_string()),
             Ok(()) => self
                 .state
                 .tell_error(format!("the GPU was lost ({reason}) and was opened again")),
