@@ -3,6 +3,7 @@
 mod bench;
 mod clear_sky;
 mod clouds;
+mod export;
 mod layers;
 mod lit;
 mod render;
@@ -18,6 +19,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 pub use bench::{BenchArgs, Protocol};
+pub use export::Shot;
 pub use render::RenderArgs;
 
 /// Looks at the sky of a Welkin pack.
@@ -38,7 +40,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Draw one frame without a window, to a PNG (8-bit sRGB) or an EXR (linear radiance)
+    /// Draw without a window: a frame, an environment map, or a sequence of either, as PNG (8-bit sRGB), or EXR, HDR or KTX2 (linear radiance)
     Render(Box<RenderArgs>),
     /// Time each method's sky and two reference passes on the GPU
     Bench(BenchArgs),

@@ -16,6 +16,7 @@ pub mod cubemap;
 pub mod display;
 pub mod equirect;
 pub mod faces;
+pub mod sequence;
 
 use half::f16;
 use welkin_pack::Pack;

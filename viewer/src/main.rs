@@ -1,9 +1,11 @@
 //! `welkin-view`: draws and times the skies of Welkin packs.
 //!
-//! Exit codes: 0 done, 1 something went wrong (one line `error: ...` says what), 2 wrong usage.
+//! Exit codes: 0 done, 1 something went wrong (one line `error: ...` says what), 2 wrong usage,
+//! 130 interrupted.
 
 mod bench;
 mod cli;
+mod interrupt;
 mod render;
 
 use std::io::Write;
@@ -24,6 +26,7 @@ fn main() -> ExitCode {
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
+        Err(error) if interrupt::requested() => failed(&error.to_string(), interrupt::EXIT_CODE),
         Err(error) => failed(&error.to_string(), 1),
     }
 }

@@ -8,6 +8,7 @@ use welkin_viewer::headless::View;
 
 use super::clear_sky::ClearSkyArgs;
 use super::clouds::{CloudArgs, OWNERS};
+use super::export::{ExportArgs, Shot};
 use super::lit::{self, LitArgs};
 use super::sprites::{self, SpriteArgs};
 use super::values::{azimuth_deg, elevation_deg, fov_deg, oktas, place_m, seconds, size, unit};
@@ -18,8 +19,9 @@ use super::{belongs, is_given};
 pub struct RenderArgs {
     /// Folder of the pack
     pub pack: PathBuf,
-    /// Picture to write; its name ends in .png or .exr. A file of that name is replaced
-    #[arg(short, long, value_name = "FRAME.png|.exr")]
+    /// Picture to write; its name ends in .png, .exr or .hdr. A file of that name is replaced. With --cubemap a .ktx2 or a folder,
+    /// with --frames a folder
+    #[arg(short, long, value_name = "FRAME.png|.exr|.hdr")]
     pub output: PathBuf,
     /// Pixels, width by height
     #[arg(long, value_name = "WxH", default_value = "1600x1200", value_parser = size, allow_hyphen_values = true)]
@@ -46,6 +48,8 @@ pub struct RenderArgs {
     pub weather: WeatherArgs,
     #[command(flatten)]
     pub camera: CameraArgs,
+    #[command(flatten)]
+    pub export: ExportArgs,
 }
 
 /// How the clouds are made.
@@ -128,9 +132,9 @@ fn skybox_help() -> String {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Camera")]
 pub struct CameraArgs {
-    /// Azimuth of the view, from north (0) towards east (90), -360 to 360
-    #[arg(long, value_name = "DEG", default_value_t = 180.0, value_parser = azimuth_deg, allow_negative_numbers = true)]
-    pub azimuth: f32,
+    /// Azimuth of the view, from north (0) towards east (90), -360 to 360 [default: 180; 0 with --equirect]
+    #[arg(long, value_name = "DEG", value_parser = azimuth_deg, allow_negative_numbers = true)]
+    pub azimuth: Option<f32>,
     /// Elevation of the view, -90 to 90: 0 is the horizon, 90 the zenith
     #[arg(long, value_name = "DEG", default_value_t = 25.0, value_parser = elevation_deg, allow_negative_numbers = true)]
     pub elevation: f32,
@@ -156,6 +160,14 @@ impl RenderArgs {
             camera: self.camera.camera(self.size),
             seconds: self.at,
         }
+    }
+
+    /// What becomes of it.
+    ///
+    /// # Errors
+    /// That the name of the output does not suit it.
+    pub fn shot(&self) -> Result<Shot, String> {
+        self.export.shot(&self.output)
     }
 
     fn params(&self) -> SkyParams {
@@ -193,6 +205,11 @@ impl RenderArgs {
     /// Which option it is, and whose; or that its value is not for this method.
     pub fn refuse_others(&self, given: &ArgMatches) -> Result<(), String> {
         self.clear_sky.refuse_others(given)?;
+        let (rain, flare) = (self.weather.rain, self.light.flare);
+        self.export.refuse_others(given, rain, flare)?;
+        if self.export.is_used() {
+            self.shot()?;
+        }
         let method = Method::from(self.method);
         let stray =
             owners().find(|(option, owners)| is_given(given, option) && !owners.contains(&method));
@@ -244,7 +261,7 @@ fn owners() -> impl Iterator<Item = (&'static str, &'static [Method])> {
 impl CameraArgs {
     fn camera(&self, size: [u32; 2]) -> Camera {
         let [azimuth_rad, elevation_rad, fov_rad] =
-            [self.azimuth, self.elevation, self.fov].map(f32::to_radians);
+            [self.azimuth.unwrap_or(180.0), self.elevation, self.fov].map(f32::to_radians);
         Camera {
             // North is -Z.
             position_m: [self.east, self.up, -self.north].into(),

@@ -137,7 +137,8 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
     }
 }
 
-fn within<T: FromStr + PartialOrd + std::fmt::Display>(
+/// A number in a range.
+pub fn within<T: FromStr + PartialOrd + std::fmt::Display>(
     text: &str,
     range: RangeInclusive<T>,
     unit: &str,

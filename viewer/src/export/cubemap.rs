@@ -1,6 +1,6 @@
 //! The cube map: six faces, and the KTX2 file that holds them.
 //!
-//! Faces are in the order of [`cube::FACES`], each a square of texels whose centres are at `(i + 0.5) / side`, from the upper left corner, as
+//! Faces are in the order of [`FACES`], each a square of texels whose centres are at `(i + 0.5) / side`, from the upper left corner, as
 //! KTX2 has cube maps: orientation `rd`, rows down and columns to the right.
 //!
 //! # Practice
@@ -12,7 +12,7 @@ use welkin_pack::texture::encode;
 use welkin_pack::{Format, Image, PackError, Shape, Texture, ktx};
 use welkin_runtime::Camera;
 
-use super::cube::{self, FACES};
+use super::cube::FACES;
 use super::faces::Face;
 use crate::frame::{Frame, Pixels};
 
@@ -27,7 +27,7 @@ const SAMPLES: u32 = 2;
 pub struct Cubemap {
     /// Texels a side of a face.
     pub side: u32,
-    /// The faces, in the order of [`cube::FACES`], rows from the top, three channels.
+    /// The faces, in the order of [`FACES`], rows from the top, three channels.
     pub faces: Vec<Image>,
 }
 
@@ -122,6 +122,7 @@ fn halved(image: &Image) -> Image {
 mod tests {
     use glam::Vec3;
 
+    use super::super::cube;
     use super::super::faces::tests::{analytic, smooth};
     use super::*;
 

@@ -177,7 +177,7 @@ mod tests {
         }
 
         #[test]
-        fn directions_and_back(azimuth in 0.0_f32..6.28, elevation in -1.5_f32..1.5, middle in -7.0_f32..7.0) {
+        fn directions_and_back(azimuth in 0.0_f32..TAU, elevation in -1.5_f32..1.5, middle in -7.0_f32..7.0) {
             let direction = Vec3::from(direction_from_angles(azimuth, elevation));
             let uv = direction_to_equirect(direction.to_array(), middle);
             prop_assert!(uv.iter().all(|c| (0.0..=1.0).contains(c)));

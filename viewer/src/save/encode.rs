@@ -88,6 +88,12 @@ fn shared_exponent(rgb: [f32; 3]) -> [f32; 3] {
         return [0.0; 3];
     }
     let step = (brightest.log2().floor() - 7.0).exp2();
+    // What rounds up to the next power of two has steps of twice the size.
+    let step = if (brightest / step).round() < 256.0 {
+        step
+    } else {
+        2.0 * step
+    };
     rgb.map(|c| (c.max(0.0) / step).round() * step)
 }
 
@@ -134,5 +140,10 @@ mod tests {
         assert_eq!(shared_exponent([-1.0, 0.5, 1.0]), [0.0, 0.5, 1.0]);
         // 255.9 steps of 1/256 round up to the next power of two.
         assert_eq!(shared_exponent([0.9999, 0.0, 0.0]), [1.0, 0.0, 0.0]);
+        // And then the others have steps of 1/128, not of 1/256.
+        assert_eq!(
+            shared_exponent([0.9999, 64.6 / 128.0, 0.0]),
+            [1.0, 65.0 / 128.0, 0.0]
+        );
     }
 }
