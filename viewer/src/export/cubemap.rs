@@ -74,16 +74,11 @@ impl Cubemap {
 
     /// The cube map as a texture of RGBA half floats with all its levels; alpha is 1.
     pub fn texture(&self) -> Texture {
-        let mut faces = self.faces.clone();
-        let count = Texture::full_level_count(self.side, self.side);
-        let mut levels = Vec::with_capacity(count);
-        for level in 0..count {
-            if level > 0 {
-                faces = faces.iter().map(halved).collect();
-            }
-            let texels = faces.iter().flat_map(|face| face.texels.chunks_exact(3));
-            let opaque: Vec<f32> = texels.flat_map(|t| [t[0], t[1], t[2], 1.0]).collect();
-            levels.push(encode(Format::Rgba16Float, &opaque));
+        let mut levels = vec![level(&self.faces)];
+        let mut faces: Vec<Image> = self.faces.iter().map(halved).collect();
+        for _ in 1..Texture::full_level_count(self.side, self.side) {
+            levels.push(level(&faces));
+            faces = faces.iter().map(halved).collect();
         }
         Texture {
             format: Format::Rgba16Float,
@@ -105,7 +100,17 @@ impl Cubemap {
     }
 }
 
-/// The means of 2x2 texels. The side is even.
+/// The faces of a level as half floats, one after another.
+fn level(faces: &[Image]) -> Vec<u8> {
+    let of = |face: &Image| {
+        let texels = face.texels.chunks_exact(3);
+        let opaque: Vec<f32> = texels.flat_map(|t| [t[0], t[1], t[2], 1.0]).collect();
+        encode(Format::Rgba16Float, &opaque)
+    };
+    faces.iter().flat_map(of).collect()
+}
+
+/// The means of 2x2 texels. The side is even, or 1: then nothing is left.
 fn halved(image: &Image) -> Image {
     let side = image.width / 2;
     let mut half = Image::new(side, side, image.channels);

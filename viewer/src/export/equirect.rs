@@ -12,7 +12,7 @@
 
 use std::f32::consts::{PI, TAU};
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use half::f16;
 use rayon::prelude::*;
 use welkin_pack::mapping::{angles_from_direction, direction_from_angles};
@@ -47,7 +47,10 @@ pub fn equirect_to_direction([u, v]: [f32; 2], azimuth_rad: f32) -> [f32; 3] {
 #[derive(Clone, Debug)]
 pub struct Map {
     width: u32,
-    azimuth_rad: f32,
+    /// Of each column of samples, its direction on the horizon: x east, y south.
+    columns: Vec<Vec2>,
+    /// Of each row of samples: x cosine, y sine of its elevation.
+    rows: Vec<Vec2>,
     sums: Vec<[f32; 3]>,
 }
 
@@ -72,9 +75,22 @@ pub fn draw<E>(
 
 impl Map {
     fn new(width: u32, azimuth_rad: f32) -> Map {
+        let places = |count: u32| {
+            let samples = count * SAMPLES;
+            (0..samples).map(move |i| (i as f32 + 0.5) / samples as f32)
+        };
+        let on_horizon = |u| {
+            let [east, _, south] = equirect_to_direction([u, 0.5], azimuth_rad);
+            Vec2::new(east, south)
+        };
+        let towards_north = |v| {
+            let [_, up, south] = equirect_to_direction([0.5, v], 0.0);
+            Vec2::new(-south, up)
+        };
         Map {
             width,
-            azimuth_rad,
+            columns: places(width).map(on_horizon).collect(),
+            rows: places(width / 2).map(towards_north).collect(),
             sums: vec![[0.0; 3]; width as usize * (width / 2) as usize],
         }
     }
@@ -82,48 +98,41 @@ impl Map {
     /// Adds the samples that lie on a face.
     fn add(&mut self, number: usize, face: &Face) {
         let forward = Vec3::from(face_to_direction(number, [0.5, 0.5]));
-        // No direction of a face is further from its middle than a corner; a texel reaches as far again as half its diagonal.
-        let nearest = (1.0 / 3.0_f32.sqrt()) - PI / self.width as f32 * std::f32::consts::SQRT_2;
-        let (width, azimuth_rad) = (self.width, self.azimuth_rad);
-        let rows = self.sums.par_chunks_exact_mut(width as usize).enumerate();
-        rows.for_each(|(y, row)| {
-            for (x, sum) in row.iter_mut().enumerate() {
-                let at = |x: f32, y: f32| {
-                    let uv = [x / width as f32, y / (width / 2) as f32];
-                    equirect_to_direction(uv, azimuth_rad)
-                };
-                let middle = Vec3::from(at(x as f32 + 0.5, y as f32 + 0.5));
-                if middle.dot(forward) < nearest {
-                    continue;
-                }
-                for [i, j] in samples() {
-                    let direction = at(x as f32 + i, y as f32 + j);
-                    let (found, st) = direction_to_face(direction);
-                    if found == number {
-                        let weight = cos_elevation(direction);
-                        let radiance = face.bilinear(st);
-                        for (sum, value) in sum.iter_mut().zip(radiance) {
-                            *sum += weight * value;
+        // No direction of a face is further from its middle than a corner; the samples of a texel are less than its diagonal apart.
+        let diagonal = TAU / self.width as f32 * std::f32::consts::SQRT_2;
+        let nearest = 1.0 / 3.0_f32.sqrt() - diagonal;
+        let (columns, rows) = (&self.columns, &self.rows);
+        let sums = self.sums.par_chunks_exact_mut(self.width as usize);
+        let samples = SAMPLES as usize;
+        sums.zip(rows.par_chunks_exact(samples))
+            .for_each(|(sums, rows)| {
+                for (sum, columns) in sums.iter_mut().zip(columns.chunks_exact(samples)) {
+                    if direction(columns[0], rows[0]).dot(forward) < nearest {
+                        continue;
+                    }
+                    for &row in rows {
+                        for &column in columns {
+                            let (found, st) = direction_to_face(direction(column, row).to_array());
+                            if found == number {
+                                for (sum, value) in sum.iter_mut().zip(face.bilinear(st)) {
+                                    // By the cosine of the elevation, which a solid angle goes by.
+                                    *sum += row.x * value;
+                                }
+                            }
                         }
                     }
                 }
-            }
-        });
+            });
     }
 
     /// The panorama: every texel its mean.
     pub fn frame(&self) -> Frame {
         let (width, height) = (self.width, self.width / 2);
-        let weight = |y: usize| -> f32 {
-            let of = |[_, j]: [f32; 2]| {
-                let v = (y as f32 + j) / height as f32;
-                cos_elevation(equirect_to_direction([0.5, v], self.azimuth_rad))
-            };
-            samples().map(of).sum()
-        };
-        let rows = self.sums.chunks_exact(width as usize).enumerate();
-        let pixels = rows.flat_map(|(y, row)| {
-            let weight = weight(y);
+        let weights = self.rows.chunks_exact(SAMPLES as usize);
+        let weights =
+            weights.map(|rows| SAMPLES as f32 * rows.iter().map(|row| row.x).sum::<f32>());
+        let rows = self.sums.chunks_exact(width as usize).zip(weights);
+        let pixels = rows.flat_map(|(row, weight)| {
             row.iter().map(move |sum| {
                 let [r, g, b] = sum.map(|c| f16::from_f32(c / weight));
                 [r, g, b, f16::ONE]
@@ -137,14 +146,9 @@ impl Map {
     }
 }
 
-/// Places of the samples in a texel.
-fn samples() -> impl Iterator<Item = [f32; 2]> {
-    let along = || (0..SAMPLES).map(|i| (i as f32 + 0.5) / SAMPLES as f32);
-    along().flat_map(move |j| along().map(move |i| [i, j]))
-}
-
-fn cos_elevation([x, _, z]: [f32; 3]) -> f32 {
-    x.hypot(z)
+/// A direction from that of its column on the horizon (x east, y south) and that of its row (x along the horizon, y up).
+fn direction(column: Vec2, row: Vec2) -> Vec3 {
+    Vec3::new(row.x * column.x, row.y, row.x * column.y)
 }
 
 #[cfg(test)]
