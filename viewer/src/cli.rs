@@ -3,7 +3,6 @@
 mod bench;
 mod clear_sky;
 mod clouds;
-mod layers;
 mod lit;
 mod render;
 mod sprites;

@@ -87,7 +87,7 @@ export function namePhoto(recipe, name) {
 
 /** Puts the caret where an error says: line and column count from 1. */
 function pointAt(area, message) {
-  const [, line, column] = message.match(/line (\d+), column (\d+)/) ?? [];
+  const [, line, column] = message.match(/:(\d+):(\d+):/) ?? [];
   if (!line) return;
   const before = area.value.split('\n').slice(0, Number(line) - 1);
   const at = before.reduce((sum, one) => sum + one.length + 1, 0) + Number(column) - 1;

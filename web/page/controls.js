@@ -76,7 +76,9 @@ export function sliderParts(id, label, input, set) {
   return { id, parts: [range, number], show, slider: range };
 }
 
-const slider = (key, set) => sliderParts(`key-${key.name}`, key.label, key.input, set);
+function slider(key, set) {
+  return sliderParts(`key-${key.name}`, key.label, key.input, set);
+}
 
 /** A number in at most six digits. */
 const shorter = (value) => String(Number(value.toPrecision(6)));

@@ -4,19 +4,19 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
+use welkin_controls::{LAYERS_FORM, layers, layers_help};
 use welkin_runtime::params::MAX_LAYERS;
 use welkin_runtime::{LitLayer, LitParams};
 use welkin_viewer::frame::Target;
 use welkin_viewer::save::target_for;
 
-use super::layers::{FORM, layers, layers_help};
 use super::values::{of_sky, shadow_extent_m};
 
 /// What only [`welkin_runtime::Method::Lit`] knows.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Clouds of --method lit")]
 pub struct LitArgs {
-    #[arg(long, value_name = FORM, value_parser = layers, allow_hyphen_values = true, help = layers_help())]
+    #[arg(long, value_name = LAYERS_FORM, value_parser = layers, allow_hyphen_values = true, help = layers_help())]
     pub layers: Option<[LitLayer; MAX_LAYERS]>,
     /// Radius of the dome's rim in metres, 1000 to 1000000
     #[arg(long, value_name = "M", default_value_t = LitParams::default().radius_m, value_parser = radius_m, allow_negative_numbers = true)]

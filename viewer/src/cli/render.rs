@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{ArgMatches, Args, ValueEnum};
+use welkin_controls::Viewpoint;
 use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_viewer::headless::View;
 
@@ -129,13 +130,13 @@ fn skybox_help() -> String {
 #[command(next_help_heading = "Camera")]
 pub struct CameraArgs {
     /// Azimuth of the view, from north (0) towards east (90), -360 to 360
-    #[arg(long, value_name = "DEG", default_value_t = 180.0, value_parser = azimuth_deg, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = Viewpoint::default().azimuth_deg, value_parser = azimuth_deg, allow_negative_numbers = true)]
     pub azimuth: f32,
     /// Elevation of the view, -90 to 90: 0 is the horizon, 90 the zenith
-    #[arg(long, value_name = "DEG", default_value_t = 25.0, value_parser = elevation_deg, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = Viewpoint::default().elevation_deg, value_parser = elevation_deg, allow_negative_numbers = true)]
     pub elevation: f32,
     /// Vertical field of view, 1 to 150
-    #[arg(long, value_name = "DEG", default_value_t = 60.0, value_parser = fov_deg, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = Viewpoint::default().fov_deg, value_parser = fov_deg, allow_negative_numbers = true)]
     pub fov: f32,
     /// Where the viewer stands, metres to the east, -1000000 to 1000000
     #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = place_m, allow_negative_numbers = true)]
@@ -243,12 +244,17 @@ fn owners() -> impl Iterator<Item = (&'static str, &'static [Method])> {
 
 impl CameraArgs {
     fn camera(&self, size: [u32; 2]) -> Camera {
-        let [azimuth_rad, elevation_rad, fov_rad] =
-            [self.azimuth, self.elevation, self.fov].map(f32::to_radians);
-        Camera {
-            // North is -Z.
-            position_m: [self.east, self.up, -self.north].into(),
-            ..Camera::looking(azimuth_rad, elevation_rad, fov_rad, size)
+        self.viewpoint().camera(size)
+    }
+
+    fn viewpoint(&self) -> Viewpoint {
+        Viewpoint {
+            azimuth_deg: self.azimuth,
+            elevation_deg: self.elevation,
+            fov_deg: self.fov,
+            east_m: self.east,
+            north_m: self.north,
+            up_m: self.up,
         }
     }
 }

@@ -1,9 +1,10 @@
 //! The options of the weather, which is every method's.
 
 use clap::Args;
-use welkin_runtime::{Lightning, WeatherParams};
+use welkin_controls::{Flash, LIGHTNING_FORM, lightning};
+use welkin_runtime::WeatherParams;
 
-use super::values::{of_sky, place_km, unit};
+use super::values::unit;
 
 /// Weather over clouds of any method.
 #[derive(Debug, Args)]
@@ -21,27 +22,10 @@ pub struct WeatherArgs {
     pub lightning: Option<Flash>,
 }
 
-const LIGHTNING_FORM: &str = "EAST_KM,SOUTH_KM[,START_S[,STRENGTH]]";
-
-/// A flash whose start may be left to the frame.
-#[derive(Clone, Copy, Debug)]
-pub struct Flash {
-    place_m: [f32; 2],
-    start_s: Option<f64>,
-    strength: f32,
-}
-
-/// Seconds before the frame at which a flash begins that shall show in it: after its rise, near its brightest.
-const RISEN_S: f64 = 0.005;
-
 impl WeatherArgs {
     /// The weather of a frame at this moment.
     pub fn params(&self, at_s: f64) -> WeatherParams {
-        let lightning = self.lightning.map(|flash| Lightning {
-            place_m: flash.place_m,
-            start_s: flash.start_s.unwrap_or(at_s - RISEN_S),
-            strength: flash.strength,
-        });
+        let lightning = self.lightning.map(|flash| flash.at(at_s));
         WeatherParams {
             rays: self.rays,
             rain: self.rain,
@@ -50,41 +34,10 @@ impl WeatherArgs {
     }
 }
 
-/// Two to four numbers between commas.
-fn lightning(text: &str) -> Result<Flash, String> {
-    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
-    let (east, south, start, strength) = match parts[..] {
-        [east, south] => (east, south, None, "1"),
-        [east, south, start] => (east, south, Some(start), "1"),
-        [east, south, start, strength] => (east, south, Some(start), strength),
-        _ => {
-            return Err(format!(
-                "expected two to four numbers {LIGHTNING_FORM}, such as 4,-2 or 4,-2,10,0.5"
-            ));
-        }
-    };
-    let start_s = |text: &str| {
-        let value = of_sky(text, |sky, v| sky.weather.lightning.start_s = v, " seconds");
-        told("START_S", text, value)
-    };
-    let share = of_sky(strength, |sky, v| sky.weather.lightning.strength = v, "");
-    Ok(Flash {
-        place_m: [
-            1000.0 * told("EAST_KM", east, place_km(east))?,
-            1000.0 * told("SOUTH_KM", south, place_km(south))?,
-        ],
-        start_s: start.map(start_s).transpose()?,
-        strength: told("STRENGTH", strength, share)?,
-    })
-}
-
-/// The value, or which number is wrong, what it is and what was expected.
-fn told<T>(name: &str, text: &str, value: Result<T, String>) -> Result<T, String> {
-    value.map_err(|expected| format!("{name} is \"{text}\", {expected}"))
-}
-
 #[cfg(test)]
 mod tests {
+    use welkin_runtime::Lightning;
+
     use crate::cli::{Cli, Command};
 
     use super::*;

@@ -3,8 +3,9 @@
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::future_to_promise;
 use web_sys::HtmlCanvasElement;
+use welkin_controls::{Blend, Settings};
 use welkin_pack::Pack;
-use welkin_runtime::{Camera, Method, Sky, SkyConfig, SkyParams};
+use welkin_runtime::{Sky, SkyConfig};
 
 use crate::canvas::Canvas;
 use crate::files;
@@ -16,8 +17,8 @@ pub struct Engine {
     canvas: Canvas,
     trouble: Trouble,
     sky: Option<Sky>,
-    params: SkyParams,
-    look_deg: [f32; 2],
+    pub(crate) settings: Settings,
+    pub(crate) blend: Option<Blend>,
 }
 
 #[wasm_bindgen]
@@ -32,8 +33,8 @@ impl Engine {
             trouble: Trouble::watch(&canvas.device),
             canvas,
             sky: None,
-            params: SkyParams::default(),
-            look_deg: [100.0, 28.0],
+            settings: Settings::default(),
+            blend: None,
         })
     }
 
@@ -71,29 +72,6 @@ impl Engine {
         Ok(())
     }
 
-    /// Sets one setting.
-    ///
-    /// # Errors
-    /// If there is no such key, or the text is not one of its values.
-    pub fn set(&mut self, key: &str, text: &str) -> Result<(), JsError> {
-        let number = || {
-            text.parse::<f32>()
-                .map_err(|e| error(format!("{key}: {e}")))
-        };
-        match key {
-            "cover" => self.params.cover = number()?,
-            "time" => self.params.time = number()?,
-            "azimuth" => self.look_deg[0] = number()?,
-            "elevation" => self.look_deg[1] = number()?,
-            "method" => {
-                let method = Method::ALL.into_iter().find(|m| m.name() == text);
-                self.params.method = method.ok_or_else(|| error(format!("no method {text}")))?;
-            }
-            _ => return Err(error(format!("no setting {key}"))),
-        }
-        Ok(())
-    }
-
     /// Gives the canvas so many pixels.
     pub fn resize(&mut self, width: u32, height: u32) {
         if self.canvas.size() != [width, height] {
@@ -101,11 +79,11 @@ impl Engine {
         }
     }
 
-    /// Draws the sky at a moment, in seconds from the start of the animation.
+    /// Draws the sky at its moment.
     ///
     /// # Errors
     /// If the device is lost, or told an error since the last frame.
-    pub fn draw(&mut self, seconds: f64) -> Result<(), JsError> {
+    pub fn draw(&mut self) -> Result<(), JsError> {
         if let Some(message) = self.trouble.take() {
             return Err(error(message));
         }
@@ -115,8 +93,7 @@ impl Engine {
         let Some((texture, view)) = self.canvas.next().map_err(error)? else {
             return Ok(());
         };
-        let [azimuth, elevation] = self.look_deg.map(f32::to_radians);
-        let camera = Camera::looking(azimuth, elevation, 60_f32.to_radians(), self.canvas.size());
+        let camera = self.settings.camera(self.canvas.size());
         let mut encoder = self
             .canvas
             .device
@@ -124,9 +101,9 @@ impl Engine {
         sky.prepare(
             &self.canvas.queue,
             &mut encoder,
-            &self.params,
+            &self.settings.frame_params(),
             &camera,
-            seconds,
+            self.settings.at_s,
         );
         let colour = wgpu::RenderPassColorAttachment {
             view: &view,
@@ -149,16 +126,30 @@ impl Engine {
     /// What draws, as JSON.
     pub fn info(&self) -> String {
         let adapter = &self.canvas.adapter;
+        let [width, height] = self.canvas.size();
+        let method = self.settings.params.method;
+        let bytes = self.sky.as_ref().map(|sky| sky.memory_bytes(method));
         serde_json::json!({
             "backend": self.canvas.backend.name(),
             "adapter": adapter.name,
             "driver": adapter.driver_info,
+            "width": width,
+            "height": height,
             "maxSide": self.canvas.max_side(),
+            "methodBytes": bytes,
         })
         .to_string()
     }
+
+    /// Why the pack cannot draw the method of the settings; nothing if it can.
+    pub fn lacks(&self) -> Option<String> {
+        let sky = self.sky.as_ref()?;
+        let lack = sky.supports(self.settings.params.method).err()?;
+        Some(lack.to_string())
+    }
 }
 
-fn error(message: String) -> JsError {
+/// An error for JavaScript.
+pub(crate) fn error(message: String) -> JsError {
     JsError::new(&message)
 }

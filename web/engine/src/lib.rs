@@ -2,9 +2,11 @@
 #![cfg(target_arch = "wasm32")]
 
 mod canvas;
+mod check;
 mod engine;
 mod files;
 mod panics;
+mod settings;
 mod trouble;
 
 pub use engine::Engine;

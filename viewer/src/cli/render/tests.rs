@@ -1,4 +1,5 @@
-use welkin_runtime::{FbmParams, OctaveParams};
+use welkin_controls::{Input, KEYS, Key, Settings};
+use welkin_runtime::{FbmParams, OctaveParams, SkyModel};
 
 use super::*;
 use crate::cli::{Cli, Command};
@@ -435,4 +436,58 @@ fn the_ends_of_every_range_are_in_the_sky_s_ranges() {
         "fbm",
         &[("--sharpness", UNIT), ("--lit", THREE), ("--shaded", THREE)],
     );
+}
+
+/// A text for a setting that is not the usual one.
+fn another_text(key: &Key) -> String {
+    match key.input {
+        Input::Slider { whole: true, .. } => "3".to_string(),
+        Input::Slider { low, high, .. } => ((low + (high - low) * 0.625) as f32).to_string(),
+        Input::Switch => "false".to_string(),
+        Input::Choice { choices } => choices[choices.len() - 1].to_string(),
+        Input::Numbers { optional: true, .. } => "-0.5,-0.5,9,-2.5,0.5".to_string(),
+        Input::Numbers { .. } | Input::Colour => "0.25,0.5,0.75".to_string(),
+        Input::Layers => "cumulus:0.5:0.8,cirrus:0.25:4".to_string(),
+        Input::Text { .. } => "-4,2.5,10,0.5".to_string(),
+    }
+}
+
+#[test]
+fn settings_become_options_that_give_the_same_picture() {
+    // All at once, and each alone: some stand in place of others.
+    let alone = KEYS.iter().map(std::slice::from_ref);
+    for changed in alone.chain([KEYS]) {
+        for (method, sky) in Method::ALL
+            .iter()
+            .flat_map(|m| SkyModel::ALL.map(|s| (m, s)))
+        {
+            let mut settings = Settings::default();
+            for key in changed {
+                key.set(&mut settings, &another_text(key)).unwrap();
+            }
+            settings.params.method = *method;
+            settings.params.sky = sky;
+            let options = settings.options();
+            let words: Vec<&str> = options.iter().map(String::as_str).collect();
+            let args = render_args(&words);
+            let shown = Settings {
+                params: args.params(),
+                view: args.camera.viewpoint(),
+                at_s: args.at,
+                ..settings
+            };
+            let frame = Settings {
+                params: settings.frame_params(),
+                ..settings
+            };
+            for key in KEYS.iter().filter(|key| key.applies(&frame)) {
+                assert_eq!(
+                    key.text(&shown),
+                    key.text(&frame),
+                    "{} by {words:?}",
+                    key.name
+                );
+            }
+        }
+    }
 }

@@ -1,28 +1,30 @@
-//! The value of `--layers`: layers of clouds between commas.
+//! Layers of clouds as text: between commas.
 
 use welkin_pack::LayerKind;
 use welkin_runtime::params::MAX_LAYERS;
 use welkin_runtime::{LitLayer, LitParams};
 
-use super::values::of_sky;
+use crate::values::of_sky;
 
 /// How it is written.
-pub const FORM: &str = "KIND[:SHARE[:HEIGHT]],...";
+pub const LAYERS_FORM: &str = "KIND[:SHARE[:HEIGHT]],...";
 
+/// What it means.
 pub fn layers_help() -> String {
-    let usual = LitParams::default().layers;
-    let usual: Vec<String> = usual
-        .iter()
-        .filter(|l| l.share > 0.0)
-        .map(written)
-        .collect();
+    let usual = layers_text(&LitParams::default().layers);
     format!(
         "1 to {MAX_LAYERS} layers between commas; lower ones hide higher ones. KIND is one of {}; SHARE its part in the \
          cover beside the other layers, 0 to 1, or else 1; HEIGHT counts in heights of the dome, 0.1 to 20, or else is the \
          kind's [default: {}]",
         kinds(),
-        usual.join(",")
+        usual
     )
+}
+
+/// Layers as text. Those without a share are left out.
+pub fn layers_text(layers: &[LitLayer]) -> String {
+    let shown = layers.iter().filter(|layer| layer.share > 0.0);
+    shown.map(written).collect::<Vec<_>>().join(",")
 }
 
 fn written(layer: &LitLayer) -> String {
@@ -33,7 +35,10 @@ fn kinds() -> String {
     LayerKind::ALL.map(LayerKind::name).join(", ")
 }
 
-/// Layers between commas, brought into the order of their heights: that is how they lie before each other.
+/// Layers from text, brought into the order of their heights: that is how they lie before each other.
+///
+/// # Errors
+/// Which layer is wrong, and what was expected.
 pub fn layers(text: &str) -> Result<[LitLayer; MAX_LAYERS], String> {
     let mut layers = text
         .split(',')
@@ -83,5 +88,37 @@ fn layer(text: &str) -> Result<LitLayer, String> {
         );
         layer.height = told(height, "height", value)?;
     }
+    layer.velocity_m_s = velocity_m_s(&layer);
     Ok(layer)
+}
+
+/// A layer at the height of a usual one of its kind moves as that one does, others as their kind does: so the text of the usual
+/// layers stands for them, and a share that changes moves no cloud.
+fn velocity_m_s(layer: &LitLayer) -> [f32; 2] {
+    let usual = LitParams::default().layers;
+    let like = |other: &&LitLayer| (other.kind, other.height) == (layer.kind, layer.height);
+    usual
+        .iter()
+        .find(like)
+        .map_or(layer.velocity_m_s, |usual| usual.velocity_m_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_text_of_the_usual_layers_stands_for_them() {
+        let usual = LitParams::default().layers;
+        assert_eq!(layers(&layers_text(&usual)), Ok(usual));
+    }
+
+    #[test]
+    fn a_share_that_changes_moves_no_cloud() {
+        let [_, higher, ..] = layers("stratocumulus:0.6:1,stratocumulus:0.9:2.1").unwrap();
+        assert_eq!(
+            higher.velocity_m_s,
+            LitParams::default().layers[1].velocity_m_s
+        );
+    }
 }

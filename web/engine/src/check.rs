@@ -1,0 +1,15 @@
+//! `welkin check` in the page.
+
+use wasm_bindgen::prelude::*;
+use welkin_pack::check::check_memory;
+
+use crate::files;
+
+/// Checks a pack from a map of file names to `Uint8Array`s: the report as `welkin check --json` prints it.
+///
+/// # Errors
+/// If the manifest cannot be read at all.
+#[wasm_bindgen]
+pub fn check(place: &str, map: &js_sys::Map) -> Result<String, JsError> {
+    Ok(check_memory(place, &files::from_map(map))?.to_json())
+}
