@@ -1,7 +1,19 @@
 // What buttons and keys do besides the settings.
 
-import { byId, isTyping } from './dom.js';
-import { complain, tell } from './message.js';
+import { byId, isTyping, reason } from './dom.js';
+import { complain, settle, tell } from './message.js';
+
+/** Does something that may fail, and says why; tells whether it went well. */
+export async function attempt(topic, work) {
+  settle(topic);
+  try {
+    await work();
+    return true;
+  } catch (error) {
+    complain(topic, reason(error));
+    return false;
+  }
+}
 
 /** Puts a text into the clipboard. */
 export async function copyText(what, text) {

@@ -12,7 +12,7 @@ const NOTCH_PX = 100;
 /**
  * @param {HTMLElement} view where gestures are made
  * @param {{drag(way_px: number[]): void, zoom(notches: number): void, wake(): void}} to
- * @returns {{held(): object | null}} keys that are held, as the engine takes them
+ * @returns {{held(flies: boolean): object | null}} keys that are held, as the engine takes them
  */
 export function watchCamera(view, to) {
   watchPointers(view, to);
@@ -68,10 +68,10 @@ function watchKeys(view, to) {
   addEventListener('keyup', (event) => held.delete(event.key === 'Shift' ? 'Shift' : event.code));
   addEventListener('blur', () => held.clear());
   return {
-    held() {
+    held(flies) {
       const keys = Object.fromEntries(AXES.map((axis) => [axis, 0]));
       for (const code of held) {
-        const [axis, way] = TURNS[code] ?? FLIGHT[code] ?? [];
+        const [axis, way] = TURNS[code] ?? (flies ? FLIGHT[code] : undefined) ?? [];
         if (axis) keys[axis] += way;
       }
       if (AXES.every((axis) => keys[axis] === 0)) return null;

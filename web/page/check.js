@@ -14,7 +14,7 @@ const MARKS = { failed: '✕', skipped: '–', passed: '✓' };
  * @param {HTMLElement} place
  * @param {{sound: boolean, findings: Finding[]}} report
  */
-export function showReport(place, report) {
+function showReport(place, report) {
   const of = (outcome) => report.findings.filter((finding) => finding.outcome === outcome);
   const [failed, skipped, passed] = ORDER.map(of);
   const errors = failed.filter(({ severity }) => severity === 'error').length;
@@ -27,11 +27,26 @@ export function showReport(place, report) {
   );
 }
 
-/** Shows that there is no report. */
-export function showNoReport(place, text) {
+/** Checks a pack in a worker, which is ended after it; a later pack ends the check of an earlier one. */
+export function showCheck(place, files) {
+  worker?.terminate();
+  const mine = new Worker(new URL('./check-worker.js', import.meta.url), { type: 'module', name: 'welkin check' });
+  worker = mine;
   delete place.dataset.sound;
-  place.replaceChildren(el('p', { class: 'verdict unsound' }, text));
+  place.replaceChildren(el('p', { class: 'quiet', role: 'status' }, 'Checking…'));
+  const none = (why) => place.replaceChildren(el('p', { class: 'verdict unsound' }, `Cannot be checked: ${why}`));
+  mine.onmessage = ({ data: { report, error } }) => {
+    if (report) showReport(place, report);
+    else none(error);
+    mine.terminate();
+  };
+  mine.onerror = (event) => {
+    event.preventDefault();
+    none(event.message ?? 'the check could not be loaded');
+  };
+  mine.postMessage(files);
 }
+let worker = null;
 
 function verdict(errors, warnings, passed, skipped) {
   const rest = `${passed} passed${skipped ? `, ${skipped} skipped` : ''}`;

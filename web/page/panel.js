@@ -60,7 +60,8 @@ function methods(key, change) {
   });
   return (now) => {
     for (const radio of radios) radio.checked = radio.value === now;
-    if (paper.textContent !== PAPERS[now]) paper.textContent = PAPERS[now] ?? '';
+    paper.textContent = PAPERS[now] ?? '';
+    paper.title = paper.textContent;
   };
 }
 

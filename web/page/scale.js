@@ -38,7 +38,10 @@ function shares(low, high) {
   const way = Math.log1p(Math.max(high, -low));
   return {
     min: low < 0 ? -1 : 0, max: 1, step: 0.005,
-    place: (value) => (Math.sign(value) * Math.log1p(Math.abs(clamp(value, low, high)))) / way,
+    place(value) {
+      const inside = clamp(value, low, high);
+      return (Math.sign(inside) * Math.log1p(Math.abs(inside))) / way;
+    },
     value: (place) => clean(Math.sign(place) * Math.expm1(Math.abs(place) * way)),
   };
 }

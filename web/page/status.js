@@ -15,7 +15,22 @@ function part(name, text, title) {
 export function showBackend({ backend, adapter }) {
   const name = NAMES[backend] ?? backend;
   part('backend', name, `Drawn with ${name}`);
-  part('adapter', adapter || '', `Graphics adapter: ${adapter}`);
+  showAdapter(adapter);
+  if (!adapter && backend === 'webgpu') askAdapter();
+}
+
+const showAdapter = (name) => part('adapter', name, `Graphics adapter: ${name}`);
+
+/** What the browser tells of the adapter itself. */
+async function askAdapter() {
+  const adapter = await navigator.gpu.requestAdapter({ powerPreference: 'high-performance' }).catch(() => null);
+  const { description, vendor, architecture } = adapter?.info ?? {};
+  showAdapter(description || [vendor, architecture].filter(Boolean).join(' '));
+}
+
+/** What the textures of the method weigh on the graphics card. */
+export function showTextures(bytes) {
+  part('textures', bytes ? `textures ${bytesText(bytes)}` : '', `The textures that this method reads have ${bytes} bytes on the graphics card`);
 }
 
 export function showPack(files) {
@@ -36,8 +51,8 @@ export async function showSizes() {
  * The time from the end of the downloads to the first picture on the screen. A frame's work is done when the frame after it begins.
  */
 export function showFirstFrame() {
+  const loaded_ms = Math.max(0, ...performance.getEntriesByType('resource').map((entry) => entry.responseEnd));
   requestAnimationFrame(() => requestAnimationFrame(() => {
-    const loaded_ms = Math.max(0, ...performance.getEntriesByType('resource').map((entry) => entry.responseEnd));
     const first_ms = Math.round(performance.now() - loaded_ms);
     part('first', `first frame ${first_ms} ms`, `The first frame came ${first_ms} ms after the download`);
     document.documentElement.dataset.firstFrame = String(first_ms);

@@ -1,0 +1,97 @@
+// The pack that is drawn: where it comes from, what the check finds in it, and the baker that makes others.
+
+import { bake, fetchPack } from './welkin.js';
+import { attempt } from './actions.js';
+import { watchBaker } from './baking.js';
+import { showCheck } from './check.js';
+import { byId, bytesText, reason } from './dom.js';
+import { chosen, watchDrops } from './drop.js';
+import { complain, tell } from './message.js';
+import { showPack } from './status.js';
+
+const USUAL_PACK = 'pack/';
+
+/**
+ * @param {ReturnType<import('./stage.js').createStage>} stage
+ * @param {{pack?: string, backend?: string}} own what the address asks for; the pack's address is kept up to date
+ * @param {() => void} changed to be called after another pack was loaded
+ */
+export function createPacks(stage, own, changed) {
+  let baker = null;
+
+  /** Draws another pack and shows its check. The sky stays as it is if the pack is not sound. */
+  async function load(files, name, address) {
+    try {
+      await stage.load(files);
+    } catch (error) {
+      showCheck(byId('report'), files);
+      byId('pack-group').open = true;
+      throw new Error(`${name}: ${reason(error)} The sky is as it was.`, { cause: error });
+    }
+    own.pack = address;
+    about(name);
+    changed();
+  }
+
+  function about(name) {
+    showPack(stage.files);
+    byId('pack-name').textContent = name;
+    baker.fill(stage.sky.pack);
+    showCheck(byId('report'), stage.files);
+  }
+
+  const take = (given) => attempt('pack', async () => {
+    const { kind, name, files, bytes } = await given();
+    if (kind === 'pack') {
+      await load(files, name);
+      tell('pack', `${name} is loaded.`);
+      return;
+    }
+    byId('baker-group').open = true;
+    if (kind === 'photo') baker.photograph(name, bytes);
+    else baker.fill({ recipe: new TextDecoder().decode(bytes) });
+    byId('bake').focus();
+  });
+
+  /** Opens the sky with the pack of the address, or else with the usual one; tells its name. */
+  async function openFirst() {
+    const wanted = own.pack;
+    if (wanted && await attempt('pack', async () => stage.open(await fetchPack(wanted, progress), own.backend))) return wanted;
+    // A wrong address or a broken pack is told; there is a sky all the same.
+    own.pack = undefined;
+    const files = await fetchPack(USUAL_PACK, progress);
+    try {
+      await stage.open(files, own.backend);
+    } catch (error) {
+      if (!own.backend || own.backend === 'auto') throw error;
+      complain('backend', reason(error));
+      own.backend = undefined;
+      await stage.open(files, 'auto');
+    }
+    return USUAL_PACK;
+  }
+
+  /** Listens to forms and drops, when there is a sky. */
+  function watch() {
+    baker = watchBaker(bake, (files) => load(files, 'the baked pack'));
+    watchDrops(take);
+    for (const id of ['pack-file', 'pack-folder']) {
+      byId(id).addEventListener('change', ({ target }) => {
+        const list = [...target.files];
+        target.value = '';
+        if (list.length) take(() => chosen(list));
+      });
+    }
+    byId('pack-form').addEventListener('submit', (event) => {
+      event.preventDefault();
+      const url = byId('pack-url').value.trim();
+      if (url) attempt('pack', async () => load(await fetchPack(url), url, url));
+    });
+  }
+
+  return { openFirst, watch, about };
+}
+
+function progress(done, total) {
+  byId('loading').textContent = total ? `Loading… ${Math.floor((100 * done) / total)} %` : `Loading… ${bytesText(done)}`;
+}
