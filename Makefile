@@ -19,7 +19,7 @@ STORM := --time 0.42 --cover 0.92 --density 0.75 --azimuth 40 --elevation 25
 # Mesa's device selection complains of a desktop session that is not there; without it, nothing is lost.
 export NODEVICE_SELECT := 1
 
-.PHONY: help sky gallery test check bench tools gpu-tools node-tools clean
+.PHONY: help sky gallery web test web-test check bench tools gpu-tools node-tools web-tools clean
 
 help: ## Say what can be made
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
@@ -106,13 +106,22 @@ gallery: sky ## Draw the pictures of docs/lit.md and docs/sprites.md into out/li
 	done
 	$(VIEW) render $(PACK) -o out/sprites/far.png $(SPRITES) --cover 0.6 --time 0.45 --azimuth 100 --elevation -14 --up 9000 --sight 60000
 
-test: gpu-tools node-tools ## Run every test, and formatting, lints and docs without a warning
+web: web-tools ## Build the page with the sky in WebAssembly into out/web/, for any web server
+	$(CARGO) build --release --locked -p welkin-baker
+	scripts/web-build
+
+test: gpu-tools node-tools web-tools ## Run every test, and formatting, lints and docs without a warning
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
 	$(CARGO) build --release --locked -p welkin-baker
 	WELKIN_RELEASE=$(CURDIR)/$(WELKIN) $(CARGO) test --workspace --locked -- --include-ignored
 	if $(CARGO) tree --locked -e normal,build -p welkin-baker | grep -q ' wgpu '; then echo "the baker must not need wgpu"; exit 1; fi
+	$(MAKE) web-test
+
+web-test: web gpu-tools ## Test the page: its bakes, and its pictures in headless Chromium
+	$(CARGO) build --release --locked -p welkin-viewer
+	cd web && node --test 'test/*.test.mjs'
 
 check: ## Compile and lint, without running anything
 	$(CARGO) fmt --all --check
@@ -123,7 +132,7 @@ bench: gpu-tools ## Measure the bake, and the GPU milliseconds of a frame of eac
 	$(WELKIN) bake -o $(PACK) --force
 	$(VIEW) bench $(PACK) --method all
 
-tools: gpu-tools node-tools ## Install what pictures and tests need, with apt, where it is missing
+tools: gpu-tools node-tools web-tools ## Install what pictures and tests need, with apt, where it is missing
 
 # A Vulkan driver and a GL one: any GPU's, or Mesa's software ones. `ls` finds the driver files that the loaders read.
 gpu-tools:
@@ -140,6 +149,11 @@ node-tools:
 	@[ -d tests/node/node_modules/ktx-parse ] && [ -d tests/node/node_modules/gltf-validator ] \
 	  || npm --prefix tests/node ci --no-audit --no-fund --silent
 
+# wasm-opt and what drives the browser come from npm; the compiler for WebAssembly is looked for by scripts/wasm-build.
+web-tools: node-tools
+	@[ -d web/node_modules/binaryen ] && [ -d web/node_modules/playwright-core ] || npm --prefix web ci --no-audit --no-fund --silent
+	@command -v $(or $(CHROMIUM),chromium) >/dev/null || scripts/apt-install chromium
+
 clean: ## Remove what was made
 	$(CARGO) clean
-	rm -rf out packs tests/node/node_modules
+	rm -rf out packs tests/node/node_modules web/node_modules

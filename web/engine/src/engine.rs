@@ -17,6 +17,7 @@ pub struct Engine {
     canvas: Canvas,
     trouble: Trouble,
     sky: Option<Sky>,
+    pack: String,
     pub(crate) settings: Settings,
     pub(crate) blend: Option<Blend>,
 }
@@ -33,6 +34,7 @@ impl Engine {
             trouble: Trouble::watch(&canvas.device),
             canvas,
             sky: None,
+            pack: "null".to_string(),
             settings: Settings::default(),
             blend: None,
         })
@@ -69,6 +71,16 @@ impl Engine {
             config,
             &pack,
         )?);
+        let manifest = pack.manifest();
+        self.pack = serde_json::json!({
+            "name": manifest.name,
+            // JavaScript's numbers do not hold every seed.
+            "seed": manifest.seed.to_string(),
+            "recipe": manifest.recipe,
+            "baker": manifest.baker,
+            "bytes": pack.files().iter().map(|(_, bytes)| bytes.len()).sum::<usize>(),
+        })
+        .to_string();
         Ok(())
     }
 
@@ -139,6 +151,11 @@ impl Engine {
             "methodBytes": bytes,
         })
         .to_string()
+    }
+
+    /// What the pack says of itself, as JSON; `null` before there is one.
+    pub fn pack(&self) -> String {
+        self.pack.clone()
     }
 
     /// Why the pack cannot draw the method of the settings; nothing if it can.

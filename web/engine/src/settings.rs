@@ -1,20 +1,21 @@
 //! The settings in JavaScript: texts by name, as links hold them. See `welkin-controls`.
 
 use wasm_bindgen::prelude::*;
-use welkin_controls::{Blend, KEYS, PRESETS, Pilot, Preset, Settings};
+use welkin_controls::{Blend, KEYS, Key, Keys, PRESETS, Pilot, Preset, Settings};
+use welkin_pack::LayerKind;
+use welkin_runtime::params::MAX_LAYERS;
 
 use crate::engine::{Engine, error};
 
-/// Every setting with its words, its range and the methods that look at it, as JSON: a list.
+/// Every setting with its words, its range and the methods that look at it, the presets, and what layers may be, as JSON.
 #[wasm_bindgen]
-pub fn controls() -> Result<String, JsError> {
-    Ok(serde_json::to_string(KEYS)?)
-}
-
-/// The presets, as JSON: a list.
-#[wasm_bindgen]
-pub fn presets() -> Result<String, JsError> {
-    Ok(serde_json::to_string(&PRESETS)?)
+pub fn controls() -> String {
+    serde_json::json!({
+        "keys": KEYS,
+        "presets": PRESETS,
+        "layers": { "kinds": LayerKind::ALL.map(LayerKind::name), "most": MAX_LAYERS },
+    })
+    .to_string()
 }
 
 #[wasm_bindgen]
@@ -45,19 +46,40 @@ impl Engine {
             .collect()
     }
 
+    /// Every setting: names and texts, one after another.
+    pub fn all(&self) -> Vec<String> {
+        let pair = |key: &Key| [key.name.to_string(), key.text(&self.settings)];
+        KEYS.iter().flat_map(pair).collect()
+    }
+
     /// The names of the settings that the sky looks at, with these settings.
-    pub fn applicable(&self) -> Vec<String> {
+    pub fn applies(&self) -> Vec<String> {
         let keys = KEYS.iter().filter(|key| key.applies(&self.settings));
         keys.map(|key| key.name.to_string()).collect()
     }
 
-    /// Gives every setting its usual value. The moment stays.
-    pub fn reset(&mut self) {
-        self.blend = None;
-        self.settings = Settings {
-            at_s: self.settings.at_s,
-            ..Settings::default()
-        };
+    /// Gives a setting its usual value, or all of them.
+    ///
+    /// # Errors
+    /// If there is no such setting.
+    pub fn reset(&mut self, name: Option<String>) -> Result<(), JsError> {
+        let usual = Settings::default();
+        match name {
+            Some(name) => self.settings.set(&name, &usual.get(&name)?)?,
+            None => (self.settings, self.blend) = (usual, None),
+        }
+        Ok(())
+    }
+
+    /// The options of `welkin-view render` that draw this picture.
+    pub fn options(&self) -> Vec<String> {
+        self.settings.options()
+    }
+
+    /// The name of the preset whose settings these are.
+    pub fn weather(&self) -> Option<String> {
+        let preset = PRESETS.iter().find(|preset| preset.is(&self.settings))?;
+        Some(preset.name.to_string())
     }
 
     /// Begins the way to a preset that takes so many seconds, 0 for at once.
@@ -78,28 +100,16 @@ impl Engine {
         self.blend.is_some()
     }
 
-    /// Lets so many seconds go by: the animation, the day, the way to a preset.
-    pub fn advance(&mut self, seconds: f64) {
+    /// Lets so many seconds go by: the way to a preset and, if `time` says so, the animation and the day.
+    pub fn advance(&mut self, seconds: f64, time: bool) {
         if let Some(blend) = &mut self.blend {
             blend.advance(&mut self.settings, seconds as f32);
             if blend.is_over() {
                 self.blend = None;
             }
         }
-        self.settings.advance(seconds);
-    }
-
-    /// The moment of the animation, in seconds.
-    #[wasm_bindgen(getter)]
-    pub fn at(&self) -> f64 {
-        self.settings.at_s
-    }
-
-    /// Sets the moment, 0 to 1e9 seconds.
-    #[wasm_bindgen(setter)]
-    pub fn set_at(&mut self, seconds: f64) {
-        if seconds.is_finite() {
-            self.settings.at_s = seconds.clamp(0.0, 1e9);
+        if time {
+            self.settings.advance(seconds);
         }
     }
 
@@ -108,8 +118,28 @@ impl Engine {
         Pilot::drag(&mut self.settings.view, [right_px, down_px], height_px);
     }
 
-    /// Zooms by steps of a wheel, in for positive ones.
-    pub fn zoom(&mut self, steps: f32) {
-        Pilot::zoom(&mut self.settings.view, steps);
+    /// Turns of a wheel away from the person: a narrower view.
+    pub fn zoom(&mut self, notches: f32) {
+        Pilot::zoom(&mut self.settings.view, notches);
+    }
+
+    /// Moves the view as keys that are held for so many seconds, each -1, 0 or 1: turn right and up, fly forward, right and up.
+    pub fn pilot(&mut self, turn: &[f32], fly: &[f32], haste: bool, seconds: f32) {
+        let (&[turn_right, turn_up], &[forward, right, up]) = (turn, fly) else {
+            return;
+        };
+        let keys = Keys {
+            turn_right,
+            turn_up,
+            forward,
+            right,
+            up,
+            haste,
+        };
+        let pilot = Pilot {
+            flying: true,
+            ..Pilot::default()
+        };
+        pilot.advance(&mut self.settings, keys, seconds);
     }
 }

@@ -1,0 +1,112 @@
+// The sky in a browser, by WebGPU and by WebGL2, is the picture that the native program draws.
+//
+// Both round to 8 bits, and their drivers compute with other last bits of sines, powers and texture filters: so most bytes are the same
+// and the others one step off. A byte is more than a step off where a pixel lies on an edge that is cut sharply, a star's or a
+// cut cloud's, and such pixels are rare. Hence three bounds. The mean difference stays below half a step, what rounding could do at most if every
+// byte fell between two steps; 99.9 % of the bytes are within three steps: one for each rounding (texture, radiance, display),
+// and what is beyond is on edges; and no byte is off by more than a quarter of the range, as a missing star or cloud would be in many.
+// That the bounds can fail is tested too: a little more cover breaks them.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { openBrowser } from './page-browser.mjs';
+import { SITE, VIEW } from './places.mjs';
+
+const SIZE = [320, 180];
+const MOST_MEAN = 0.5;
+const STEPS = 3;
+const LEAST_WITHIN = 0.999;
+
+const METHODS = ['packed', 'octaves', 'fbm', 'lit', 'sprites'];
+const SKIES = {
+  noon: { time: 0.45, cover: 0.5, azimuth: 100, elevation: 28, at: 30 },
+  sunset: { time: 0.742, sunset: 1, cover: 0.62, height: 0.6, azimuth: 270, elevation: 20, at: 30 },
+  night: { time: 0.02, cover: 0.35, azimuth: 72, elevation: 42, at: 30 },
+};
+
+const folder = mkdtempSync(join(tmpdir(), 'welkin-draw-'));
+let browser = null;
+before(async () => { browser = await openBrowser(); });
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true });
+});
+
+/** The native program's picture, as the address of its bytes. */
+function native(options, name) {
+  const file = join(folder, `${name}.png`);
+  execFileSync(VIEW, ['render', join(SITE, 'pack'), '-o', file, '--size', SIZE.join('x'), ...options], { stdio: ['ignore', 'ignore', 'pipe'] });
+  return `data:image/png;base64,${readFileSync(file).toString('base64')}`;
+}
+
+/** Opens an empty page of the site. */
+const visit = (work) => browser.visit({ search: 'sizes.json', drawn: false }, async (page) => {
+  await page.evaluate(async (size) => {
+    const { createSky } = await import('./welkin.js');
+    const pixels = (picture) => {
+      const flat = new OffscreenCanvas(...size).getContext('2d', { willReadFrequently: true });
+      flat.drawImage(picture, 0, 0);
+      return flat.getImageData(0, 0, ...size).data;
+    };
+    Object.assign(window, {
+      async open(backend) {
+        window.sky?.destroy();
+        const canvas = document.createElement('canvas');
+        [canvas.width, canvas.height] = size;
+        window.sky = await createSky(canvas, 'pack/', { backend, onlost: (why) => console.error(why) });
+        // In the task of the drawing: a canvas keeps no picture.
+        window.draw = (settings) => {
+          sky.set(settings).draw();
+          return pixels(canvas);
+        };
+        return sky.info;
+      },
+      async compare(drawn, address, steps = 3) {
+        const other = pixels(await createImageBitmap(await (await fetch(address)).blob(), { colorSpaceConversion: 'none' }));
+        const off = [0, 0, 0, 0];
+        let [sum, count, most, within] = [0, 0, 0, 0];
+        for (let i = 0; i < drawn.length; i += 1) {
+          const difference = Math.abs(drawn[i] - other[i]);
+          if (i % 4 === 3) { off[3] += difference; continue; }
+          sum += difference;
+          count += 1;
+          most = Math.max(most, difference);
+          if (difference <= steps) within += 1;
+        }
+        return { mean: sum / count, most, within: within / count, alpha: off[3], spread: Math.max(...drawn) - Math.min(...drawn.filter((_, i) => i % 4 < 3)) };
+      },
+    });
+  }, SIZE);
+  await work(page);
+});
+
+for (const backend of ['webgpu', 'webgl2']) {
+  for (const method of METHODS) {
+    test(`${backend} draws ${method} as the native program does`, (t) => visit(async (page) => {
+      for (const [name, settings] of Object.entries(SKIES)) {
+        // A new sky, as the native program has: `sprites` keeps its ring from frame to frame.
+        const info = await page.evaluate((wanted) => open(wanted), backend);
+        assert.equal(info.backend, backend);
+        const options = await page.evaluate((wanted) => sky.set(wanted).options(), { ...settings, method });
+        const address = native(options, `${backend}-${method}-${name}`);
+        const found = await page.evaluate(async (picture) => compare(draw({}), picture), address);
+        t.diagnostic(`${name}: ${JSON.stringify(found)}`);
+        assert.equal(found.alpha, 0, 'the canvas is opaque');
+        assert.ok(found.spread > 100, `${name}: the picture is flat`);
+        assert.ok(found.mean < MOST_MEAN && found.within >= LEAST_WITHIN, `${name}: ${JSON.stringify(found)}`);
+      }
+    }));
+  }
+
+  test(`a little more cover is told apart by ${backend}`, () => visit(async (page) => {
+    await page.evaluate((wanted) => open(wanted), backend);
+    const options = await page.evaluate((wanted) => sky.set(wanted).options(), SKIES.noon);
+    const address = native(options, `${backend}-cover`);
+    const found = await page.evaluate(async (picture) => compare(draw({ cover: 0.55 }), picture), address);
+    assert.ok(found.mean >= MOST_MEAN && found.within < LEAST_WITHIN, JSON.stringify(found));
+  }));
+}
