@@ -4,7 +4,7 @@ import init, { bake } from './baker.js';
 
 onmessage = async ({ data: { recipe, seed, inputs } }) => {
   try {
-    await init();
+    await init({ module_or_path: new URL('./baker_bg.wasm', import.meta.url) });
     const files = bake(recipe, seed, inputs, (step, done, total) => postMessage({ step, done, total }));
     postMessage({ files }, [...files.values()].map((bytes) => bytes.buffer));
   } catch (error) {

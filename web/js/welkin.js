@@ -13,7 +13,7 @@ const MOST_PIXELS_A_PX = 2;
 
 let loaded = null;
 /** Loads the engine, once. */
-const load = () => (loaded ??= init());
+const load = () => (loaded ??= init({ module_or_path: new URL('./engine_bg.wasm', import.meta.url) }));
 
 /** Opens a sky. */
 export async function createSky(canvas, source, options = {}) {

@@ -42,7 +42,7 @@ function web(recipe, seed, inputs) {
   files.set(baker.builtInPhoto(), read(join(ROOT, 'assets-src/photos/god-rays-1024.png')));
   const steps = [];
   const baked = baker.bake(text, seed, files, (step, done, total) => steps.push({ step, done, total }));
-  assert.deepEqual(steps.map(({ done }) => done), steps.map((_, i) => i));
+  assert.ok(steps.every(({ done }, i) => done >= (steps[i - 1]?.done ?? 0)), 'progress goes back');
   assert.ok(steps.at(-1).step === 'done' && steps.at(-1).done === steps.at(-1).total);
   return hashes([...baked]);
 }
