@@ -1,11 +1,13 @@
 // The sky in a browser, by WebGPU and by WebGL2, is the picture that the native program draws.
 //
-// Both round to 8 bits, and their drivers compute with other last bits of sines, powers and texture filters: so most bytes are the same
-// and the others one step off. A byte is more than a step off where a pixel lies on an edge that is cut sharply, a star's or a
-// cut cloud's, and such pixels are rare. Hence three bounds. The mean difference stays below half a step, what rounding could do at most if every
-// byte fell between two steps; 99.9 % of the bytes are within three steps: one for each rounding (texture, radiance, display),
-// and what is beyond is on edges; and no byte is off by more than a quarter of the range, as a missing star or cloud would be in many.
-// That the bounds can fail is tested too: a little more cover breaks them.
+// Both round to 8 bits, and their drivers compute with other last bits of sines, powers and texture filters: so most bytes are the same and
+// the others a step off. Two numbers that differ by less than a step, rounded, are a step apart no more often than not, so the mean stays below half a
+// step. WebGL2 has no canvas that shows an sRGB texture: wgpu decodes and encodes the picture once more on its way to the canvas, which rounds it a
+// second time, so there the mean may be twice that.
+//
+// A byte is off by more where a map that is drawn off screen was rounded before, and clouds' edges are cut out of it with up to three times its
+// contrast: three steps for one. 99.9 % of the bytes are within that; the others lie on the edges of sprites, where the coverage of a
+// pixel differs between rasterisers. That the bounds can fail is tested too: a little more cover breaks both.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -17,7 +19,7 @@ import { openBrowser } from './page-browser.mjs';
 import { SITE, VIEW } from './places.mjs';
 
 const SIZE = [320, 180];
-const MOST_MEAN = 0.5;
+const MOST_MEAN = { webgpu: 0.5, webgl2: 1 };
 const STEPS = 3;
 const LEAST_WITHIN = 0.999;
 
@@ -65,19 +67,23 @@ const visit = (work) => browser.visit({ search: 'sizes.json', drawn: false }, as
         };
         return sky.info;
       },
-      async compare(drawn, address, steps = 3) {
+      async compare(drawn, address, steps) {
         const other = pixels(await createImageBitmap(await (await fetch(address)).blob(), { colorSpaceConversion: 'none' }));
-        const off = [0, 0, 0, 0];
-        let [sum, count, most, within] = [0, 0, 0, 0];
-        for (let i = 0; i < drawn.length; i += 1) {
-          const difference = Math.abs(drawn[i] - other[i]);
-          if (i % 4 === 3) { off[3] += difference; continue; }
-          sum += difference;
-          count += 1;
-          most = Math.max(most, difference);
-          if (difference <= steps) within += 1;
-        }
-        return { mean: sum / count, most, within: within / count, alpha: off[3], spread: Math.max(...drawn) - Math.min(...drawn.filter((_, i) => i % 4 < 3)) };
+        const found = { mean: 0, within: 0, most: 0, opaque: true, least: 255, largest: 0 };
+        const count = drawn.length / 4 * 3;
+        drawn.forEach((byte, i) => {
+          if (i % 4 === 3) {
+            found.opaque &&= byte === 255;
+            return;
+          }
+          const difference = Math.abs(byte - other[i]);
+          found.mean += difference / count;
+          found.within += (difference <= steps) / count;
+          found.most = Math.max(found.most, difference);
+          found.least = Math.min(found.least, byte);
+          found.largest = Math.max(found.largest, byte);
+        });
+        return found;
       },
     });
   }, SIZE);
@@ -93,11 +99,11 @@ for (const backend of ['webgpu', 'webgl2']) {
         assert.equal(info.backend, backend);
         const options = await page.evaluate((wanted) => sky.set(wanted).options(), { ...settings, method });
         const address = native(options, `${backend}-${method}-${name}`);
-        const found = await page.evaluate(async (picture) => compare(draw({}), picture), address);
+        const found = await page.evaluate(async ([picture, steps]) => compare(draw({}), picture, steps), [address, STEPS]);
         t.diagnostic(`${name}: ${JSON.stringify(found)}`);
-        assert.equal(found.alpha, 0, 'the canvas is opaque');
-        assert.ok(found.spread > 100, `${name}: the picture is flat`);
-        assert.ok(found.mean < MOST_MEAN && found.within >= LEAST_WITHIN, `${name}: ${JSON.stringify(found)}`);
+        assert.ok(found.opaque, 'the canvas is not opaque');
+        assert.ok(found.largest - found.least > 50, `${name}: the picture is flat`);
+        assert.ok(found.mean < MOST_MEAN[backend] && found.within >= LEAST_WITHIN, `${name}: ${JSON.stringify(found)}`);
       }
     }));
   }
@@ -106,7 +112,7 @@ for (const backend of ['webgpu', 'webgl2']) {
     await page.evaluate((wanted) => open(wanted), backend);
     const options = await page.evaluate((wanted) => sky.set(wanted).options(), SKIES.noon);
     const address = native(options, `${backend}-cover`);
-    const found = await page.evaluate(async (picture) => compare(draw({ cover: 0.55 }), picture), address);
-    assert.ok(found.mean >= MOST_MEAN && found.within < LEAST_WITHIN, JSON.stringify(found));
+    const found = await page.evaluate(async ([picture, steps]) => compare(draw({ cover: 0.55 }), picture, steps), [address, STEPS]);
+    assert.ok(found.mean >= MOST_MEAN[backend] && found.within < LEAST_WITHIN, JSON.stringify(found));
   }));
 }

@@ -25,6 +25,8 @@ const TYPES = {
 async function serve(folder) {
   const server = createServer(async (request, answer) => {
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://page').pathname)).replace(/\/$/, '/index.html');
+    // Browsers ask for it where a document names no icon.
+    if (path === '/favicon.ico') return answer.writeHead(204).end();
     try {
       const bytes = await readFile(join(folder, path));
       answer.writeHead(200, { 'content-type': TYPES[extname(path)] ?? 'application/octet-stream' });
@@ -82,11 +84,14 @@ export async function openBrowser({ flags = DRAWING } = {}) {
 
 /** The sky beside the panel and above the line at the bottom, once what was asked for has been drawn. */
 export async function picture(page) {
+  await page.evaluate(() => { document.getElementById('messages').style.visibility = 'hidden'; });
   await frames(page, 2);
   const { width, height } = page.viewportSize();
   const wide = width > 640;
   const clip = wide ? { x: 0, y: 0, width: width - 344, height: height - 48 } : { x: 0, y: 0, width, height: Math.floor(height * 0.4) };
-  return page.screenshot({ clip });
+  const png = await page.screenshot({ clip });
+  await page.evaluate(() => { document.getElementById('messages').style.visibility = ''; });
+  return png;
 }
 
 /** Lets frames go by. */
