@@ -31,6 +31,7 @@ const loop = createLoop((seconds) => {
   // Only among the sprites is there anywhere to fly to.
   const keys = camera.held(method === 'sprites');
   if (keys) sky.pilot(keys, seconds);
+  const blended = sky.blending;
   sky.advance(seconds, { time: playing });
   try {
     stage.draw();
@@ -42,7 +43,7 @@ const loop = createLoop((seconds) => {
   unshown_s += seconds;
   const goes_on = playing || sky.blending || keys !== null;
   if (unshown_s >= SHOW_S || !goes_on) show();
-  if (keys) written();
+  if (keys || blended || sky.blending) written();
   return goes_on;
 });
 

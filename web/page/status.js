@@ -43,8 +43,8 @@ export async function showSizes() {
   const answer = await fetch('sizes.json').catch(() => null);
   if (!answer?.ok) return;
   const sizes = await answer.json();
-  const files = Object.entries(sizes.files ?? {}).map(([name, size]) => `${name} ${bytesText(size.compressed ?? size)}`);
-  part('download', `download ${bytesText(sizes.total?.compressed ?? sizes.total)}`, `Compressed, in all: ${files.join(', ')}`);
+  const { brotli, compressed } = sizes.total;
+  part('download', `download ${bytesText(brotli)}`, `All that the page may load, the baker too: ${bytesText(brotli)} as brotli, ${bytesText(compressed)} as gzip`);
 }
 
 /**

@@ -133,10 +133,13 @@ export async function compare(page, one, other) {
 
 /** Waits until the picture is another than `before` by more than noise, and tells it. */
 export async function changedPicture(page, before) {
-  for (;;) {
+  let last = 0;
+  for (let tries = 0; tries < 100; tries += 1) {
     const now = await picture(page);
-    if (!now.equals(before) && (await compare(page, now, before)).difference > 0.5) return now;
+    last = now.equals(before) ? 0 : (await compare(page, now, before)).difference;
+    if (last > 0.5) return now;
   }
+  return assert.fail(`the picture is still the same, but for ${last}`);
 }
 
 /** Waits until the address has these settings: a text, a pattern, or null for none. */
