@@ -165,6 +165,14 @@ test('H folds the panel away, keys choose the method, and ? tells them', () => b
   assert.equal(await page.isVisible('#keys'), true);
   await page.keyboard.press('Escape');
   assert.equal(await page.isVisible('#keys'), false);
+  await page.click('#keys-button');
+  await page.click('#keys button');
+  assert.equal(await page.isVisible('#keys'), false);
+  await page.focus('#view');
+  for (const playing of ['true', 'false']) {
+    await page.keyboard.press('Space');
+    assert.equal(await page.getAttribute('#play', 'aria-pressed'), playing);
+  }
   // What is typed into a text is no command.
   await page.click('#pack-group summary');
   await page.fill('#pack-url', '');
