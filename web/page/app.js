@@ -6,7 +6,7 @@ import { watchCamera } from './camera.js';
 import { byId, el, reason } from './dom.js';
 import { readLink, throttled, writeLink } from './link.js';
 import { createClock, createLoop } from './loop.js';
-import { complain, tell } from './message.js';
+import { complain, settle, tell } from './message.js';
 import { createPacks } from './packs.js';
 import { buildPanel, isNarrow } from './panel.js';
 import { createStage } from './stage.js';
@@ -48,7 +48,11 @@ const loop = createLoop((seconds) => {
 });
 
 const stage = createStage(view, createSky, {
-  opened: (sky) => showBackend(sky.info),
+  opened(sky) {
+    // What a frame of the one before said is no matter any more.
+    settle('draw');
+    showBackend(sky.info);
+  },
   lost: (why) => tell('device', `${why} The sky is being made anew.`),
   back() {
     tell('device', 'The graphics device was lost; the sky was made anew.');

@@ -56,19 +56,23 @@ export function createPacks(stage, own, changed) {
   /** Opens the sky with the pack of the address, or else with the usual one; tells its name. */
   async function openFirst() {
     const wanted = own.pack;
-    if (wanted && await attempt('pack', async () => stage.open(await fetchPack(wanted, progress), own.backend))) return wanted;
+    if (wanted && await attempt('pack', async () => openWith(await fetchPack(wanted, progress)))) return wanted;
     // A wrong address or a broken pack is told; there is a sky all the same.
     own.pack = undefined;
-    const files = await fetchPack(USUAL_PACK, progress);
+    await openWith(await fetchPack(USUAL_PACK, progress));
+    return USUAL_PACK;
+  }
+
+  /** Opens the sky with the backend of the address, or with any where there is none such. */
+  async function openWith(files) {
     try {
       await stage.open(files, own.backend);
     } catch (error) {
       if (!own.backend || own.backend === 'auto') throw error;
-      complain('backend', reason(error));
-      own.backend = undefined;
       await stage.open(files, 'auto');
+      own.backend = undefined;
+      complain('backend', reason(error));
     }
-    return USUAL_PACK;
   }
 
   /** Listens to forms and drops, when there is a sky. */

@@ -153,10 +153,13 @@ export async function addressHas(page, wanted) {
 /** A setting in the address, as a number. */
 export const inAddress = async (page, name) => Number(await page.evaluate((key) => new URLSearchParams(location.search).get(key), name));
 
-/** The files of a pack that the page is delivered with. */
-export async function packFiles(folder = join(SITE, 'pack')) {
-  const names = await readdir(folder);
-  return Promise.all(names.map(async (name) => ({ name, bytes: new Uint8Array(await readFile(join(folder, name))) })));
+/** The pack that the page is delivered with. */
+export const PACK = join(SITE, 'pack');
+
+/** Its files. */
+export async function packFiles() {
+  const names = await readdir(PACK);
+  return Promise.all(names.map(async (name) => ({ name, bytes: new Uint8Array(await readFile(join(PACK, name))) })));
 }
 
 /** Drops files on the window as a browser tells it. */

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { changedPicture, drop, openBrowser, packFiles, picture } from './page-browser.mjs';
+import { PACK, changedPicture, drop, openBrowser, packFiles, picture } from './page-browser.mjs';
 import { makeZip } from './page-zips.mjs';
 
 let browser;
@@ -97,6 +97,20 @@ test('files that are chosen are loaded as those that are dropped', () => browser
   await page.click('#pack-group summary');
   await page.setInputFiles('#pack-file', { name: 'chosen.zip', mimeType: 'application/zip', buffer: Buffer.from(zip(files)[0].bytes) });
   await page.waitForFunction(() => document.getElementById('pack-name').textContent === 'chosen.zip');
+  await sound(page);
+}));
+
+test('a folder is chosen, or dropped as a browser drops it', () => browser.visit({ search: '?paused=true' }, async (page) => {
+  await page.click('#pack-group summary');
+  await page.setInputFiles('#pack-folder', PACK);
+  await page.waitForFunction(() => document.getElementById('pack-name').textContent === 'pack');
+  await sound(page);
+  await page.evaluate(() => { document.getElementById('pack-name').textContent = ''; });
+  const session = await page.context().newCDPSession(page);
+  for (const type of ['dragEnter', 'dragOver', 'drop']) {
+    await session.send('Input.dispatchDragEvent', { type, x: 200, y: 200, data: { items: [], files: [PACK], dragOperationsMask: 1 } });
+  }
+  await page.waitForFunction(() => document.getElementById('pack-name').textContent === 'pack');
   await sound(page);
 }));
 
