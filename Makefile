@@ -19,7 +19,7 @@ STORM := --time 0.42 --cover 0.92 --density 0.75 --azimuth 40 --elevation 25
 # Mesa's device selection complains of a desktop session that is not there; without it, nothing is lost.
 export NODEVICE_SELECT := 1
 
-.PHONY: help sky gallery web test web-test check bench tools gpu-tools node-tools web-tools clean
+.PHONY: help sky gallery web test web-test check bench tools gpu-tools node-tools web-tools browser clean
 
 help: ## Say what can be made
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
@@ -110,7 +110,7 @@ web: web-tools ## Build the page with the sky in WebAssembly into out/web/, for 
 	$(CARGO) build --release --locked -p welkin-baker
 	scripts/web-build
 
-test: gpu-tools node-tools web-tools ## Run every test, and formatting, lints and docs without a warning
+test: gpu-tools node-tools ## Run every test, and formatting, lints and docs without a warning
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
@@ -119,7 +119,7 @@ test: gpu-tools node-tools web-tools ## Run every test, and formatting, lints an
 	if $(CARGO) tree --locked -e normal,build -p welkin-baker | grep -q ' wgpu '; then echo "the baker must not need wgpu"; exit 1; fi
 	$(MAKE) web-test
 
-web-test: web gpu-tools ## Test the page: its bakes, and its pictures in headless Chromium
+web-test: web gpu-tools browser ## Test the page: its bakes, and its pictures in headless Chromium
 	$(CARGO) build --release --locked -p welkin-viewer
 	cd web && node --test 'test/*.test.mjs'
 
@@ -132,7 +132,7 @@ bench: gpu-tools ## Measure the bake, and the GPU milliseconds of a frame of eac
 	$(WELKIN) bake -o $(PACK) --force
 	$(VIEW) bench $(PACK) --method all
 
-tools: gpu-tools node-tools web-tools ## Install what pictures and tests need, with apt, where it is missing
+tools: gpu-tools node-tools web-tools browser ## Install what pictures and tests need, with apt, where it is missing
 
 # A Vulkan driver and a GL one: any GPU's, or Mesa's software ones. `ls` finds the driver files that the loaders read.
 gpu-tools:
@@ -149,10 +149,12 @@ node-tools:
 	@[ -d tests/node/node_modules/ktx-parse ] && [ -d tests/node/node_modules/gltf-validator ] \
 	  || npm --prefix tests/node ci --no-audit --no-fund --silent
 
-# wasm-opt and what drives the browser come from npm; the compiler for WebAssembly is looked for by scripts/wasm-build.
+# wasm-opt and the driver of the browser come from npm; scripts/wasm-build looks for the compiler.
 web-tools: node-tools
 	@[ -d web/node_modules/binaryen ] && [ -d web/node_modules/playwright-core ] || npm --prefix web ci --no-audit --no-fund --silent
-	@command -v $(or $(CHROMIUM),chromium) >/dev/null || scripts/apt-install chromium
+
+browser:
+	@command -v $(or $(CHROMIUM),/usr/bin/chromium) >/dev/null || scripts/apt-install chromium
 
 clean: ## Remove what was made
 	$(CARGO) clean

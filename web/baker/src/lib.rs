@@ -1,15 +1,12 @@
 //! The baker in a browser's worker: what `web/js/baker-worker.js` asks of WebAssembly. Elsewhere this library is empty.
 #![cfg(target_arch = "wasm32")]
 
-mod panics;
 mod progress;
 
-use std::collections::BTreeMap;
-
-use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::*;
 use welkin_baker::{Inputs, Recipe, bake_from};
 use welkin_pack::Pack;
+use welkin_web_glue::from_map;
 
 /// The built-in recipe, in TOML.
 #[wasm_bindgen(js_name = defaultRecipe)]
@@ -42,17 +39,6 @@ pub fn bake(
     let told = progress::told_to(progress);
     let pack = bake_from(&resolved, Inputs::Memory(&inputs), &told);
     Ok(to_map(&pack?))
-}
-
-fn from_map(map: &js_sys::Map) -> BTreeMap<String, Vec<u8>> {
-    let mut files = BTreeMap::new();
-    map.for_each(&mut |bytes: JsValue, name: JsValue| {
-        if let (Some(name), Some(bytes)) = (name.as_string(), bytes.dyn_ref::<js_sys::Uint8Array>())
-        {
-            files.insert(name, bytes.to_vec());
-        }
-    });
-    files
 }
 
 fn to_map(pack: &Pack) -> js_sys::Map {

@@ -6,9 +6,9 @@ use web_sys::HtmlCanvasElement;
 use welkin_controls::{Blend, Settings};
 use welkin_pack::Pack;
 use welkin_runtime::{Sky, SkyConfig};
+use welkin_web_glue::from_map;
 
 use crate::canvas::Canvas;
-use crate::files;
 use crate::trouble::Trouble;
 
 /// A sky on a canvas.
@@ -58,7 +58,7 @@ impl Engine {
     /// # Errors
     /// Those of the pack's reader and of the runtime.
     pub fn load(&mut self, place: &str, map: &js_sys::Map) -> Result<(), JsError> {
-        let files = files::from_map(map);
+        let files = from_map(map);
         let pack = Pack::from_memory(place, &files)?;
         let config = SkyConfig {
             target_format: self.canvas.format(),

@@ -4,8 +4,6 @@
 mod canvas;
 mod check;
 mod engine;
-mod files;
-mod panics;
 mod settings;
 mod trouble;
 
