@@ -27,6 +27,9 @@ function showReport(place, report) {
   );
 }
 
+/** The check that is going on. */
+let worker = null;
+
 /** Checks a pack in a worker, which is ended after it; a later pack ends the check of an earlier one. */
 export function showCheck(place, files) {
   worker?.terminate();
@@ -46,7 +49,6 @@ export function showCheck(place, files) {
   };
   mine.postMessage(files);
 }
-let worker = null;
 
 function verdict(errors, warnings, passed, skipped) {
   const rest = `${passed} passed${skipped ? `, ${skipped} skipped` : ''}`;

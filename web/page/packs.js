@@ -24,9 +24,9 @@ export function createPacks(stage, own, changed) {
     try {
       await stage.load(files);
     } catch (error) {
-      showCheck(byId('report'), files);
+      report(files, name);
       byId('pack-group').open = true;
-      throw new Error(`${name}: ${reason(error)} The sky is as it was.`, { cause: error });
+      throw new Error(`${name}: ${reason(error)}; the sky is as it was`, { cause: error });
     }
     own.pack = address;
     about(name);
@@ -37,7 +37,7 @@ export function createPacks(stage, own, changed) {
     showPack(stage.files);
     byId('pack-name').textContent = name;
     baker.fill(stage.sky.pack);
-    showCheck(byId('report'), stage.files);
+    report(stage.files, name);
   }
 
   const take = (given) => attempt('pack', async () => {
@@ -94,6 +94,11 @@ export function createPacks(stage, own, changed) {
   }
 
   return { openFirst, watch, about };
+}
+
+function report(files, name) {
+  byId('report-of').textContent = `Check of ${name}`;
+  showCheck(byId('report'), files);
 }
 
 function progress(done, total) {

@@ -59,9 +59,11 @@ test('a flipped byte is told, in the message and in the check, and the old sky s
     return { name, bytes: changed };
   });
   await drop(page, zip(broken));
-  assert.match(await alert(page, 'pack'), /clouds\.ktx2.*The sky is as it was\.$/);
+  assert.match(await alert(page, 'pack'), /^sky\.zip: .*clouds\.ktx2.*; the sky is as it was$/);
   await page.waitForSelector('#report[data-sound=false]');
   assert.match(await page.textContent('#report .verdict'), /^Not sound: \d+ failed/);
+  assert.equal(await page.textContent('#report-of'), 'Check of sky.zip');
+  assert.equal(await page.textContent('#pack-name'), 'pack/');
   // Failures first, and open.
   assert.equal(await page.getAttribute('#report .finding', 'data-rule'), 'file-hash');
   assert.match(await page.textContent('#report .finding'), /clouds\.ktx2/);
