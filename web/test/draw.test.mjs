@@ -6,8 +6,8 @@
 // second time, so there the mean may be twice that.
 //
 // A byte is off by more where a map that is drawn off screen was rounded before, and clouds' edges are cut out of it with up to three times its
-// contrast: three steps for one. 99.9 % of the bytes are within that; the others lie on the edges of sprites, where the coverage of a
-// pixel differs between rasterisers. That the bounds can fail is tested too: a little more cover breaks both.
+// contrast: three steps for one. 99.5 % of the bytes are within that; the others lie on outlines of clouds, which pass through a
+// pixel in twenty of such a picture, and where a tenth may fall to the other side. That the bounds can fail is tested too: a little more cover breaks both.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -21,7 +21,7 @@ import { SITE, VIEW } from './places.mjs';
 const SIZE = [320, 180];
 const MOST_MEAN = { webgpu: 0.5, webgl2: 1 };
 const STEPS = 3;
-const LEAST_WITHIN = 0.999;
+const LEAST_WITHIN = 0.995;
 
 const METHODS = ['packed', 'octaves', 'fbm', 'lit', 'sprites'];
 const SKIES = {

@@ -11,13 +11,16 @@ use crate::manifest::{FieldEntry, MANIFEST_FILE, TextureEntry};
 use crate::read::join;
 use crate::{Field, Manifest, PackError, Role, Texture, ktx};
 
+/// Gives the bytes of a file of at most so many.
+type Read<'a> = &'a dyn Fn(&str, u64) -> Result<Vec<u8>, PackError>;
+
 /// Where the files of a pack are.
 #[derive(Clone, Copy)]
 pub(super) struct Place<'a> {
     /// Stands before file names in errors.
     pub name: &'a str,
-    /// Gives the bytes of a file of at most so many.
-    pub read: &'a dyn Fn(&str, u64) -> Result<Vec<u8>, PackError>,
+    /// Reads them.
+    pub read: Read<'a>,
 }
 
 /// What could be read of a pack.
