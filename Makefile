@@ -55,6 +55,11 @@ sky: gpu-tools ## Bake the default pack, check it, and draw pictures of every me
 	$(VIEW) render $(SKYBOX_PACK) -o out/skybox.png $(FRAME) --method fbm --cover 0.4 --time 0.4 --azimuth 50 --elevation 22
 	@echo "pictures are in out/, the packs are in packs/"
 
+view: gpu-tools window-tools ## Open a window with sliders on the default pack
+	$(CARGO) build --release --locked -p welkin-baker -p welkin-viewer
+	[ -f $(PACK)/pack.json ] || $(WELKIN) bake -o $(PACK)
+	$(VIEW) $(PACK)
+
 # Clouds of the lit method: how many, of how many layers, of which kind, in which light.
 LIT := --size 480x270 --method lit --elevation 24 --fov 60 --flare 0
 LIT_LOW_SUN := --time 0.725 --azimuth 254
@@ -110,7 +115,7 @@ web: web-tools ## Build the page with the sky in WebAssembly into out/web/, for 
 	$(CARGO) build --release --locked -p welkin-baker
 	scripts/web-build
 
-test: gpu-tools node-tools ## Run every test, and formatting, lints and docs without a warning
+test: gpu-tools window-tools desktop-tools node-tools ## Run every test, and formatting, lints and docs without a warning
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
@@ -132,7 +137,7 @@ bench: gpu-tools ## Measure the bake, and the GPU milliseconds of a frame of eac
 	$(WELKIN) bake -o $(PACK) --force
 	$(VIEW) bench $(PACK) --method all
 
-tools: gpu-tools node-tools web-tools browser ## Install what pictures and tests need, with apt, where it is missing
+tools: gpu-tools window-tools desktop-tools node-tools web-tools browser ## Install what pictures, window, page and tests need, with apt, where it is missing
 
 # A Vulkan driver and a GL one: any GPU's, or Mesa's software ones. `ls` finds the driver files that the loaders read.
 gpu-tools:
@@ -142,6 +147,17 @@ gpu-tools:
 	@ls /usr/share/glvnd/egl_vendor.d/*.json /etc/glvnd/egl_vendor.d/*.json 2>/dev/null | grep -q . && ldconfig -p | grep -q libEGL.so.1 \
 	  || [ "$$(uname -s)" != Linux ] \
 	  || scripts/apt-install libegl1 libegl-mesa0 libgl1-mesa-dri
+
+# What the window's libraries open when it starts, on X11.
+window-tools:
+	@[ "$$(uname -s)" != Linux ] || { ldconfig -p | grep -q libX11-xcb.so.1 && ldconfig -p | grep -q libXcursor.so.1 \
+	  && ldconfig -p | grep -q libXi.so.6 && ldconfig -p | grep -q libxkbcommon-x11.so.0; } \
+	  || scripts/apt-install libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0
+
+# A display without a screen, and hands for it: they drive the window in tests.
+desktop-tools:
+	@[ "$$(uname -s)" != Linux ] || { command -v Xvfb && command -v xdotool && command -v xclip; } >/dev/null \
+	  || scripts/apt-install xvfb xdotool xclip
 
 # Node.js runs independent readers of KTX2 and glTF.
 node-tools:

@@ -404,6 +404,7 @@ pub const KEYS: &[Key] = &[
             "seconds",
             |s| &mut s.rate,
         )
+        .logarithmic()
     },
     number(
         "rate",

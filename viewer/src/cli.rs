@@ -8,9 +8,9 @@ mod render;
 mod sprites;
 mod values;
 mod weather;
+mod window;
 
 use std::ffi::OsString;
-use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
@@ -18,21 +18,17 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 pub use bench::{BenchArgs, Protocol};
 pub use render::RenderArgs;
+pub use window::WindowArgs;
 
 /// Looks at the sky of a Welkin pack.
 #[derive(Debug, Parser)]
-#[command(
-    name = "welkin-view",
-    version,
-    arg_required_else_help = true,
-    args_conflicts_with_subcommands = true
-)]
+#[command(name = "welkin-view", version, args_conflicts_with_subcommands = true)]
 pub struct Cli {
     /// What to do
     #[command(subcommand)]
     pub command: Option<Command>,
-    /// Pack to look at in a window (not in this version: use `render`)
-    pub pack: Option<PathBuf>,
+    #[command(flatten)]
+    pub window: WindowArgs,
 }
 
 #[derive(Debug, Subcommand)]
@@ -95,6 +91,6 @@ mod tests {
     #[test]
     fn a_pack_alone_asks_for_the_window() {
         let cli = Cli::read(["welkin-view", "packs/default"]).unwrap();
-        assert!(cli.command.is_none() && cli.pack.is_some());
+        assert!(cli.command.is_none() && cli.window.pack.is_some());
     }
 }

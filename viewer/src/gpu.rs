@@ -85,10 +85,22 @@ impl Gpu {
     /// # Errors
     /// [`GpuError::NoAdapter`], [`GpuError::NoSuchAdapter`], [`GpuError::NoDevice`].
     pub fn open() -> Result<Gpu, GpuError> {
+        let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+        Ok(Gpu::open_for(&wgpu::Instance::new(descriptor), None)?.0)
+    }
+
+    /// Opens the adapter that the environment names, or the fastest one, of those that can draw to the surface.
+    ///
+    /// # Errors
+    /// As [`Gpu::open`].
+    pub fn open_for(
+        instance: &wgpu::Instance,
+        surface: Option<&wgpu::Surface<'_>>,
+    ) -> Result<(Gpu, wgpu::Adapter), GpuError> {
         pollster::block_on(async {
             let wanted = std::env::var("WGPU_ADAPTER_NAME").ok();
-            let adapter = choose_adapter(wanted.as_deref()).await?;
-            open_device(&adapter).await
+            let adapter = choose_adapter(instance, surface, wanted.as_deref()).await?;
+            Ok((open_device(&adapter).await?, adapter))
         })
     }
 
@@ -188,12 +200,15 @@ impl Gpu {
     }
 }
 
-async fn choose_adapter(wanted: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
-    let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-    let instance = wgpu::Instance::new(descriptor);
+async fn choose_adapter(
+    instance: &wgpu::Instance,
+    surface: Option<&wgpu::Surface<'_>>,
+    wanted: Option<&str>,
+) -> Result<wgpu::Adapter, GpuError> {
     let Some(wanted) = wanted else {
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
+            compatible_surface: surface,
             ..Default::default()
         };
         return instance
@@ -202,6 +217,7 @@ async fn choose_adapter(wanted: Option<&str>) -> Result<wgpu::Adapter, GpuError>
             .map_err(|_| GpuError::NoAdapter);
     };
     let mut adapters = instance.enumerate_adapters(wgpu::Backends::all()).await;
+    adapters.retain(|adapter| surface.is_none_or(|s| adapter.is_surface_supported(s)));
     let names: Vec<String> = adapters.iter().map(|a| a.get_info().name).collect();
     if names.is_empty() {
         return Err(GpuError::NoAdapter);

@@ -4,6 +4,7 @@
 pub mod frame;
 pub mod gpu;
 pub mod headless;
+pub mod pass_times;
 pub mod reference;
 pub mod save;
 pub mod spread;

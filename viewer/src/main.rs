@@ -1,18 +1,16 @@
-//! `welkin-view`: draws and times the skies of Welkin packs.
+//! `welkin-view`: the window with the sliders; draws and times the skies of Welkin packs.
 //!
 //! Exit codes: 0 done, 1 something went wrong (one line `error: ...` says what), 2 wrong usage.
 
 mod bench;
 mod cli;
 mod render;
+mod window;
 
 use std::io::Write;
 use std::process::ExitCode;
 
 use cli::{Cli, Command};
-
-const NO_WINDOW: &str = "this version has no window; to look at a pack use \
-     `welkin-view render PACK -o FRAME.png`, and `welkin-view render --help` for the sky's parameters";
 
 fn main() -> ExitCode {
     // Wrong usage and `--help` end here, as clap has them end.
@@ -20,11 +18,11 @@ fn main() -> ExitCode {
     let done = match cli.command {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
-        None => return failed(NO_WINDOW, 2),
+        None => window::run(&cli.window),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) => failed(&error.to_string(), 1),
+        Err(error) => failed(&format!("{error:#}"), 1),
     }
 }
 

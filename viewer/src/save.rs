@@ -162,7 +162,11 @@ fn exr(width: u32, height: u32, pixels: &[[f16; 4]]) -> Result<Vec<u8>, String> 
     Ok(bytes.into_inner())
 }
 
-fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Writes a file that is there whole or, if that fails, as it was before.
+///
+/// # Errors
+/// The operating system's.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if path.exists() && !path.is_file() {
         // A device or a folder would be renamed over.
         return Err(io::Error::other("there is something that is not a file"));

@@ -145,12 +145,3 @@ fn without_an_adapter_it_says_what_to_install() {
     command.arg(pack()).env("WGPU_ADAPTER_NAME", "abacus");
     failed(&run(command), 1, &["abacus", "WGPU_ADAPTER_NAME"]);
 }
-
-#[test]
-fn the_window_is_not_here_yet() {
-    failed(
-        &run(view(&["packs/default"])),
-        2,
-        &["no window", "welkin-view render"],
-    );
-}

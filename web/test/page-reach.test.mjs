@@ -97,3 +97,22 @@ test('the method is chosen by arrow keys', () => browser.visit({ search: '?pause
   await page.keyboard.press('ArrowRight');
   await addressHas(page, { method: 'fbm' });
 }));
+
+test('two fingers zoom, one looks around', () => browser.visit({ ...PHONE, search: '?paused=true' }, async (page) => {
+  const session = await page.context().newCDPSession(page);
+  const touch = (type, ...points) => session.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  await touch('touchStart', [150, 200], [210, 200]);
+  await touch('touchMove', [120, 200], [240, 200]);
+  await touch('touchEnd');
+  // Twice as far apart is half of the view.
+  await page.waitForFunction(() => new URLSearchParams(location.search).has('fov'));
+  const fov = await page.evaluate(() => Number(new URLSearchParams(location.search).get('fov')));
+  assert.ok(Math.abs(fov - 30) < 1, `the view is ${fov} degrees`);
+  await touch('touchStart', [180, 200]);
+  await touch('touchMove', [120, 240]);
+  await touch('touchEnd');
+  await page.waitForFunction(() => {
+    const has = new URLSearchParams(location.search);
+    return Number(has.get('azimuth')) > 180 && Number(has.get('elevation')) > 25;
+  });
+}));

@@ -1,0 +1,62 @@
+//! `welkin-view [PACK]`: the window with the sliders.
+//!
+//! One direction of flow: events change the [`State`], the panel shows and changes it too and leaves wishes there, the app carries
+//! the wishes out, [`graphics::Graphics`] draws. Baking and watching have a thread each and send what they have to the event loop.
+
+mod app;
+mod bake;
+mod command;
+mod dropped;
+mod graphics;
+mod keyboard;
+mod panel;
+mod recipe;
+mod shot;
+mod state;
+mod watch;
+
+use anyhow::{Context, Result, anyhow};
+use winit::event_loop::EventLoop;
+
+use crate::cli::WindowArgs;
+use app::App;
+use bake::Baked;
+use state::State;
+
+/// What other threads and the device tell the event loop.
+#[derive(Debug)]
+enum Wake {
+    /// A bake goes on: what begins now, and which share is behind it.
+    Baking(&'static str, f32),
+    /// A bake has ended: a sound pack, or why there is none.
+    Baked(Box<Result<Baked, String>>),
+    /// The watched recipe or a file that it names was saved.
+    RecipeSaved,
+    /// The device of this number is gone.
+    DeviceLost(u64, String),
+    /// The device refused something.
+    DeviceError(String),
+}
+
+/// Opens the window and stays until it is closed.
+///
+/// # Errors
+/// A pack or settings that cannot be read, no display, no adapter.
+pub fn run(args: &WindowArgs) -> Result<()> {
+    let state = State::open(args)?;
+    let event_loop = EventLoop::<Wake>::with_user_event()
+        .build()
+        .map_err(|error| no_display(&error))?;
+    let mut app = App::new(args, state, event_loop.create_proxy());
+    event_loop
+        .run_app(&mut app)
+        .context("the window ended; start it again")?;
+    app.failure.map_or(Ok(()), Err)
+}
+
+fn no_display(reason: &dyn std::error::Error) -> anyhow::Error {
+    anyhow!(
+        "there is no display to open a window on ({reason}); start it in a desktop session, or draw without a window: \
+         `welkin-view render PACK -o FRAME.png`"
+    )
+}
