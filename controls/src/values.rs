@@ -138,7 +138,8 @@ fn between_commas<T: FromStr + PartialOrd, const N: usize>(
     numbers.iter().zip(&ranges).all(inside).then_some(numbers)
 }
 
-pub(crate) fn within<T: FromStr + PartialOrd + std::fmt::Display>(
+/// A number in a range.
+pub fn within<T: FromStr + PartialOrd + std::fmt::Display>(
     text: &str,
     range: RangeInclusive<T>,
     unit: &str,

@@ -1,6 +1,7 @@
 // Stars: one texel is one star, drawn as a point of its own. Theory and CPU part: stars.rs.
 struct StarUniforms {
     field: vec4f, // x: level; y: texels a side of that level; z: place in the period, 0..1; w: brightness
+    spread: vec4f, // x: 1 if light is spread over the pixel's own solid angle, 0 if over that of one in the middle
 }
 
 // The light of a star at this frame's time, from its four numbers.
@@ -25,8 +26,14 @@ fn star_tile_swaps(tile: vec2i) -> bool {
     return (((tile.x ^ tile.y) >> 1u) & 1) == 1;
 }
 
-// Radiance of the star whose texel covers `dome`, at the pixel with centre `pixel`.
-fn star_radiance(dome: vec2f, pixel: vec2f, galaxy: f32) -> vec3f {
+// The solid angle of a pixel in the middle of the screen over that of one in a direction, if stars are spread so.
+fn star_spread(direction: vec3f) -> f32 {
+    let narrowing = pixel_narrowing(direction);
+    return mix(1.0, 1.0 / (narrowing * narrowing * narrowing), uniforms.stars.spread.x);
+}
+
+// Radiance of the star whose texel covers `dome`, which is in `direction`, at the pixel with centre `pixel`.
+fn star_radiance(dome: vec2f, direction: vec3f, pixel: vec2f, galaxy: f32) -> vec3f {
     let field = uniforms.stars.field;
     let scaled = (dome + STAR_START) * (1.0 / STAR_TILE_SIDE);
     let corner = floor(scaled);
@@ -42,6 +49,6 @@ fn star_radiance(dome: vec2f, pixel: vec2f, galaxy: f32) -> vec3f {
     // A tent one pixel wide each way: over the pixels of a row its weights add up to 1 wherever the
     // star is between them, so a star that moves never changes its total light.
     let tent = max(1.0 - offset, vec2f(0.0));
-    let light = star_intensity(star, field.z) * field.w * tent.x * tent.y;
+    let light = star_intensity(star, field.z) * field.w * tent.x * tent.y * star_spread(direction);
     return mix(STAR_WARM, STAR_COLD, star.a) * (light * (1.0 + STAR_GALAXY_BOOST * galaxy));
 }

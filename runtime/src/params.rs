@@ -194,6 +194,9 @@ pub struct SkyParams {
     pub sun: bool,
     /// Whether stars and galaxy are drawn.
     pub stars: bool,
+    /// Whether a star's light is spread over the solid angle of its pixels, as an environment map wants it: the sum of radiance over solid
+    /// angle is then the same wherever the star is on a wide picture. Otherwise the sum over pixels is, so that stars look alike on a screen.
+    pub even_stars: bool,
     /// Strength of the lens flare, 0 (off) to 1.
     pub flare: f32,
     /// How far the pack's skybox, if it has one, takes the place of the computed sky, 0 to 1.
@@ -233,6 +236,7 @@ impl Default for SkyParams {
             shadow_extent_m: 0.0,
             sun: true,
             stars: true,
+            even_stars: false,
             flare: 1.0,
             skybox: 1.0,
         }

@@ -397,7 +397,7 @@ mod tests {
         );
         assert_same_layout!(module, PerezUniforms, sun, a, b, c, d, e, base, zenith);
         assert_same_layout!(module, SunUniforms, right, up, disc, glow, towards);
-        assert_same_layout!(module, StarUniforms, field);
+        assert_same_layout!(module, StarUniforms, field, spread);
         assert_same_layout!(module, GalaxyUniforms, light);
         assert_same_layout!(module, SkyboxUniforms, mix);
         assert_same_layout!(module, CloudUniforms, gradient, sunlight, ambient, tint);

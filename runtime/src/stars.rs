@@ -14,6 +14,9 @@
 //! from the next level, which keeps the light of the stars. Near the horizon the projection narrows
 //! texels by sqrt(1/2), and the tents of some stars lose their outermost corners there.
 //!
+//! Away from the lens' axis, at an angle t to it, a pixel covers cos^3 t of the solid angle that one in the middle does. On a screen
+//! that is nobody's concern; a map of radiance divides by it ([`crate::SkyParams::even_stars`]).
+//!
 //! # Practice
 //! One texture read a pixel at night, the rest only where there is a star (about one pixel in 40).
 
@@ -39,12 +42,13 @@ const BRIGHTNESS: f32 = 1.6;
 const MIN_TEXEL_PX: f32 = 2.0 * std::f32::consts::SQRT_2;
 
 /// The stars' share of the uniforms. `texels` is the side of level 0, `pixel_rad` width and height of a
-/// pixel in the middle of the screen.
+/// pixel in the middle of the screen, `even` is [`crate::SkyParams::even_stars`].
 pub fn uniforms(
     texels: u32,
     levels: usize,
     pixel_rad: [f32; 2],
     night: f32,
+    even: bool,
     seconds: f64,
 ) -> StarUniforms {
     let level = level(texels, levels, pixel_rad);
@@ -54,6 +58,7 @@ pub fn uniforms(
     let brightness = BRIGHTNESS * night * texel_sr / pixel_sr;
     StarUniforms {
         field: [level as f32, side, period(seconds), brightness],
+        spread: [f32::from(u8::from(even)), 0.0, 0.0, 0.0],
     }
 }
 
@@ -97,8 +102,8 @@ mod tests {
     #[test]
     fn light_does_not_depend_on_the_level() {
         // Level 0 at 4 pixels a texel, level 1 at 2: four times the area holds a quarter of the intensity.
-        let fine = uniforms(256, 9, [1e-3; 2], 1.0, 0.0).field;
-        let coarse = uniforms(256, 9, [1.5e-3; 2], 1.0, 0.0).field;
+        let fine = uniforms(256, 9, [1e-3; 2], 1.0, false, 0.0).field;
+        let coarse = uniforms(256, 9, [1.5e-3; 2], 1.0, false, 0.0).field;
         assert_eq!((fine[0], coarse[0]), (0.0, 1.0));
         let per_pixel_area = |field: [f32; 4], pixel_rad: f32| field[3] * pixel_rad * pixel_rad;
         let ratio = per_pixel_area(coarse, 1.5e-3) / per_pixel_area(fine, 1e-3);

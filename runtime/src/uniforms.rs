@@ -85,6 +85,8 @@ pub struct SunUniforms {
 pub struct StarUniforms {
     /// x: level; y: texels a side of that level; z: place in the flicker's period, 0..1; w: brightness.
     pub field: [f32; 4],
+    /// x: 1 if light is spread over the pixel's own solid angle, 0 if over that of one in the middle; yzw: not used.
+    pub spread: [f32; 4],
 }
 
 /// Galaxy.

@@ -33,7 +33,9 @@ pub fn radiance(
     });
     let offset = (camera::pixel_of(&uniforms.camera, towards) - pixel).abs();
     let tent = (1.0 - offset).max(Vec2::ZERO);
-    let light = star.intensity_at(seconds) * brightness * tent.x * tent.y;
+    let narrowing = direction.dot(crate::xyz(uniforms.camera.clip_w));
+    let spread = 1.0 + uniforms.stars.spread[0] * (narrowing.powi(-3) - 1.0);
+    let light = star.intensity_at(seconds) * brightness * tent.x * tent.y * spread;
     WARM.lerp(COLD, star.phase) * (light * (1.0 + GALAXY_BOOST * galaxy))
 }
 

@@ -139,6 +139,7 @@ fn all(method: Method, number: f32) -> SkyParams {
         shadow_extent_m: number,
         sun: true,
         stars: true,
+        even_stars: true,
         flare: number,
         skybox: number,
     }

@@ -3,6 +3,7 @@
 mod bench;
 mod clear_sky;
 mod clouds;
+mod export;
 mod lit;
 mod render;
 mod sprites;
@@ -17,6 +18,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 pub use bench::{BenchArgs, Protocol};
+pub use export::Shot;
 pub use render::RenderArgs;
 pub use window::WindowArgs;
 
@@ -33,7 +35,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Draw one frame without a window, to a PNG (8-bit sRGB) or an EXR (linear radiance)
+    /// Draw without a window: a frame, an environment map, or a sequence of either, as PNG (8-bit sRGB), or EXR, HDR or KTX2 (linear radiance)
     Render(Box<RenderArgs>),
     /// Time each method's sky and two reference passes on the GPU
     Bench(BenchArgs),

@@ -32,28 +32,94 @@ pub struct Drawn {
 /// # Errors
 /// See [`GpuError`].
 pub fn render(gpu: &Gpu, pack: &Pack, target: Target, view: &View) -> Result<Drawn, GpuError> {
-    let texture = gpu.target(target, view.camera.viewport_px)?;
-    let mut sky = new_sky(gpu, pack, target)?;
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    sky.prepare(
-        &gpu.queue,
-        &mut encoder,
-        &view.params,
-        &view.camera,
-        view.seconds,
-    );
-    draw_pass(
-        &mut encoder,
-        &texture.create_view(&Default::default()),
-        None,
-        |pass| sky.draw(pass),
-    );
-    gpu.queue.submit([encoder.finish()]);
-    let shadow = sky.shadow().map(|shadow| read_shares(gpu, shadow.texture));
+    let mut stage = Stage::new(gpu, pack, target)?;
     Ok(Drawn {
-        frame: read_back(gpu, &texture, target)?,
-        shadow: shadow.transpose()?,
+        frame: stage.draw(view)?,
+        shadow: stage.shadow()?,
     })
+}
+
+/// A sky and the texture that it is drawn into: one frame after the other, with what was uploaded and compiled kept.
+#[derive(Debug)]
+pub struct Stage<'a> {
+    gpu: &'a Gpu,
+    sky: Sky,
+    target: Target,
+    /// Of the size of the last frame.
+    texture: Option<wgpu::Texture>,
+}
+
+impl<'a> Stage<'a> {
+    /// A pack's sky, of which nothing is drawn yet.
+    ///
+    /// # Errors
+    /// [`GpuError::Sky`].
+    pub fn new(gpu: &'a Gpu, pack: &Pack, target: Target) -> Result<Stage<'a>, GpuError> {
+        Ok(Stage {
+            gpu,
+            sky: new_sky(gpu, pack, target)?,
+            target,
+            texture: None,
+        })
+    }
+
+    /// Forgets the frames before, as [`Sky::forget`].
+    pub fn forget(&mut self) {
+        self.sky.forget();
+    }
+
+    /// Draws a frame.
+    ///
+    /// # Errors
+    /// [`GpuError::FrameSize`], [`GpuError::Device`].
+    pub fn draw(&mut self, view: &View) -> Result<Frame, GpuError> {
+        let bytes = self.draw_bytes(view)?;
+        let [width, height] = view.camera.viewport_px;
+        Ok(Frame {
+            width,
+            height,
+            pixels: self.target.pixels(&bytes),
+        })
+    }
+
+    /// Draws a frame, as the bytes of its texture.
+    pub(crate) fn draw_bytes(&mut self, view: &View) -> Result<Vec<u8>, GpuError> {
+        let (gpu, target) = (self.gpu, self.target);
+        let size = view.camera.viewport_px;
+        let kept = self.texture.take();
+        let texture = match kept.filter(|t| [t.width(), t.height()] == size) {
+            Some(texture) => texture,
+            None => gpu.target(target, size)?,
+        };
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.sky.prepare(
+            &gpu.queue,
+            &mut encoder,
+            &view.params,
+            &view.camera,
+            view.seconds,
+        );
+        draw_pass(
+            &mut encoder,
+            &texture.create_view(&Default::default()),
+            None,
+            |pass| self.sky.draw(pass),
+        );
+        gpu.queue.submit([encoder.finish()]);
+        let bytes = read_texels(gpu, &texture, target.bytes_per_pixel());
+        self.texture = Some(texture);
+        bytes
+    }
+
+    /// The shadows of the frame that was drawn last, if it has any.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`].
+    pub fn shadow(&self) -> Result<Option<Frame>, GpuError> {
+        let shadow = self.sky.shadow();
+        let shadow = shadow.map(|shadow| read_shares(self.gpu, shadow.texture));
+        shadow.transpose()
+    }
 }
 
 /// A sky that draws into a target of [`Gpu::target`].
@@ -90,16 +156,6 @@ pub fn draw_pass(
         timestamp_writes,
         ..Default::default()
     }));
-}
-
-/// A texture of [`Gpu::target`] on the CPU.
-fn read_back(gpu: &Gpu, texture: &wgpu::Texture, target: Target) -> Result<Frame, GpuError> {
-    let bytes = read_texels(gpu, texture, target.bytes_per_pixel())?;
-    Ok(Frame {
-        width: texture.width(),
-        height: texture.height(),
-        pixels: target.pixels(&bytes),
-    })
 }
 
 /// A texture of one 8-bit channel on the CPU.
@@ -179,18 +235,11 @@ mod tests {
                 },
             );
             gpu.queue.submit([encoder.finish()]);
-            let frame = read_back(&gpu, &texture, Target::Linear).unwrap();
+            let bytes = read_texels(&gpu, &texture, Target::Linear.bytes_per_pixel()).unwrap();
             let place =
                 |i: u32| [(i % width) as f32, (i / width) as f32, 0.5, 1.0].map(f16::from_f32);
             let expected = (0..width * height).map(place).collect();
-            assert_eq!(
-                frame,
-                Frame {
-                    width,
-                    height,
-                    pixels: Pixels::Linear(expected)
-                }
-            );
+            assert_eq!(Target::Linear.pixels(&bytes), Pixels::Linear(expected));
         }
     }
 }

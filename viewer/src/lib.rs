@@ -1,6 +1,7 @@
-//! Looks at Welkin skies without a window: frames drawn off screen, saved as pictures, and passes
-//! timed on the GPU. The program `welkin-view` is built on it.
+//! Looks at Welkin skies without a window: frames drawn off screen, saved as pictures or as
+//! environment maps, and passes timed on the GPU. The program `welkin-view` is built on it.
 
+pub mod export;
 pub mod frame;
 pub mod gpu;
 pub mod headless;

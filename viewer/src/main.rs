@@ -1,9 +1,11 @@
 //! `welkin-view`: the window with the sliders; draws and times the skies of Welkin packs.
 //!
-//! Exit codes: 0 done, 1 something went wrong (one line `error: ...` says what), 2 wrong usage.
+//! Exit codes: 0 done, 1 something went wrong (one line `error: ...` says what), 2 wrong usage,
+//! 130 interrupted.
 
 mod bench;
 mod cli;
+mod interrupt;
 mod render;
 mod window;
 
@@ -22,6 +24,7 @@ fn main() -> ExitCode {
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
+        Err(error) if interrupt::requested() => failed(&format!("{error:#}"), interrupt::EXIT_CODE),
         Err(error) => failed(&format!("{error:#}"), 1),
     }
 }

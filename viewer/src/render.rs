@@ -1,20 +1,24 @@
-//! `welkin-view render`: one frame of a pack's sky, saved as a picture.
+//! `welkin-view render`: a pack's sky as a picture, an environment map, or a sequence of either.
 
-use anyhow::{Result, ensure};
+mod artist;
+mod sequence;
+
+use anyhow::{Error, Result, ensure};
 use welkin_pack::{Pack, Role};
 use welkin_runtime::{Method, Oktas, SkyError, SkyParams};
 use welkin_viewer::gpu::Gpu;
 use welkin_viewer::headless::render;
-use welkin_viewer::save::{save, target_for};
+use welkin_viewer::save::save;
 
-use crate::cli::RenderArgs;
+use crate::cli::{RenderArgs, Shot};
+use artist::Artist;
 
 /// What calibration keeps: docs/cover.md.
 const MOST_OFF_OKTAS: f32 = 0.5;
 
 pub fn run(args: &RenderArgs) -> Result<()> {
     // The name is checked before anything slow begins.
-    let target = target_for(&args.output)?;
+    let shot = args.shot().map_err(Error::msg)?;
     let pack = Pack::open(&args.pack)?;
     ensure!(
         args.light.skybox.is_none() || pack.texture(Role::Skybox).is_some(),
@@ -32,12 +36,27 @@ pub fn run(args: &RenderArgs) -> Result<()> {
         view.params.cover = cover_for_oktas(&pack, &view.params, oktas)?;
     }
     let gpu = Gpu::open()?;
-    let drawn = render(&gpu, &pack, target, &view)?;
-    save(&args.output, &drawn.frame)?;
-    if let (Some(file), Some(shadow)) = (&args.lit.shadow, &drawn.shadow) {
-        save(file, shadow)?;
+    let sequence = args.export.sequence(args.at);
+    match (shot, sequence) {
+        (Shot::Frame(format), None) => {
+            let drawn = render(&gpu, &pack, format.target(), &view)?;
+            save(&args.output, &drawn.frame)?;
+            if let (Some(file), Some(shadow)) = (&args.lit.shadow, &drawn.shadow) {
+                save(file, shadow)?;
+            }
+            Ok(())
+        }
+        (shot, sequence) => {
+            let azimuth_rad = args.camera.azimuth.unwrap_or(0.0).to_radians();
+            let artist = Artist::new(&gpu, &pack, shot, azimuth_rad)?;
+            match sequence {
+                None => artist::draw(artist, &view, &args.output),
+                Some(sequence) => {
+                    sequence::draw(artist, &view, &sequence, (&args.output, shot.extension()))
+                }
+            }
+        }
     }
-    Ok(())
 }
 
 /// The cover that shows so many oktas; an error if no cover does.

@@ -1,25 +1,17 @@
 //! Frames as picture files. A file appears whole or not at all: it is made in memory, written beside
 //! its place and renamed into it, so an older file of that name stays until the new one is complete.
 
-use std::io::{self, Cursor, Write};
+mod encode;
+mod folder;
+
+use std::io::{self, Write};
 use std::path::Path;
 
-use exr::meta::attribute::Chromaticities;
-use exr::prelude::{
-    Encoding, Image, Layer, LayerAttributes, SpecificChannels, Text, Vec2, WritableImage,
-};
-use half::f16;
-use image::{ExtendedColorType, ImageEncoder};
+use image::ExtendedColorType;
 
 use crate::frame::{Frame, Pixels, Target};
 
-/// Primaries and white point of ITU-R BT.709-6 (2015), table 3, as CIE 1931 x, y.
-const BT709: Chromaticities = Chromaticities {
-    red: Vec2(0.64, 0.33),
-    green: Vec2(0.30, 0.60),
-    blue: Vec2(0.15, 0.06),
-    white: Vec2(0.3127, 0.3290),
-};
+pub use folder::{TEMPORARY, save_folder, verify_folder};
 
 /// Why a picture could not be saved. Nothing was changed then.
 #[derive(Debug, thiserror::Error)]
@@ -27,7 +19,7 @@ const BT709: Chromaticities = Chromaticities {
 pub enum SaveError {
     /// The name of the file says no format that we write.
     #[error(
-        "{file}: the name ends in neither .png nor .exr; expected .png (8-bit sRGB) or .exr (linear radiance)"
+        "{file}: the name ends in none of .png, .exr and .hdr; expected .png (8-bit sRGB), .exr or .hdr (linear radiance)"
     )]
     UnknownFormat {
         /// The file.
@@ -53,6 +45,22 @@ pub enum SaveError {
         /// The encoder's reason.
         reason: String,
     },
+    /// There is a folder, with something in it that is none of the files that would be written.
+    #[error(
+        "{file}: is not replaced, since {found} in it is none of the files that would be written; choose another folder, or move it away"
+    )]
+    NotOurs {
+        /// The folder.
+        file: String,
+        /// What is in it.
+        found: String,
+    },
+    /// There is something that is not a folder.
+    #[error("{file}: is there and is not a folder; choose another name")]
+    NotAFolder {
+        /// The place.
+        file: String,
+    },
     /// The file could not be written.
     #[error("{file}: cannot be written: {source}; choose another place, or make room there")]
     Write {
@@ -63,22 +71,59 @@ pub enum SaveError {
     },
 }
 
-/// What to draw for a file of this name: `.png` wants [`Target::Srgb8`], `.exr` [`Target::Linear`].
+/// A format of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// 8-bit sRGB, or shares of light.
+    Png,
+    /// Linear radiance as half floats, in OpenEXR.
+    Exr,
+    /// Linear radiance with a common exponent of a pixel's three bytes, in Radiance's RGBE.
+    Hdr,
+}
+
+impl Format {
+    /// Every format.
+    pub const ALL: [Format; 3] = [Format::Png, Format::Exr, Format::Hdr];
+
+    /// What the name of such a file ends in, without the dot.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Format::Png => "png",
+            Format::Exr => "exr",
+            Format::Hdr => "hdr",
+        }
+    }
+
+    /// The format that the name of a file says.
+    ///
+    /// # Errors
+    /// [`SaveError::UnknownFormat`].
+    pub fn of(path: &Path) -> Result<Format, SaveError> {
+        let extension = path.extension().and_then(|e| e.to_str());
+        let of_that_name =
+            |format: &Format| extension.is_some_and(|e| e.eq_ignore_ascii_case(format.extension()));
+        let found = Format::ALL.into_iter().find(of_that_name);
+        found.ok_or_else(|| SaveError::UnknownFormat {
+            file: path.display().to_string(),
+        })
+    }
+
+    /// What to draw for it.
+    pub const fn target(self) -> Target {
+        match self {
+            Format::Png => Target::Srgb8,
+            Format::Exr | Format::Hdr => Target::Linear,
+        }
+    }
+}
+
+/// What to draw for a file of this name: `.png` wants [`Target::Srgb8`], `.exr` and `.hdr` [`Target::Linear`].
 ///
 /// # Errors
 /// [`SaveError::UnknownFormat`].
 pub fn target_for(path: &Path) -> Result<Target, SaveError> {
-    let extension = path
-        .extension()
-        .and_then(|e| e.to_str())
-        .unwrap_or_default();
-    match extension.to_ascii_lowercase().as_str() {
-        "png" => Ok(Target::Srgb8),
-        "exr" => Ok(Target::Linear),
-        _ => Err(SaveError::UnknownFormat {
-            file: path.display().to_string(),
-        }),
-    }
+    Format::of(path).map(Format::target)
 }
 
 /// Saves a frame in the format that the file's name says.
@@ -86,80 +131,51 @@ pub fn target_for(path: &Path) -> Result<Target, SaveError> {
 /// # Errors
 /// See [`SaveError`].
 pub fn save(path: &Path, frame: &Frame) -> Result<(), SaveError> {
-    let file = || path.display().to_string();
-    let wrong = |format, expected| {
-        Err(SaveError::WrongPixels {
-            file: file(),
-            format,
-            expected,
-        })
-    };
-    let encoded = match (target_for(path)?, &frame.pixels) {
-        (Target::Srgb8, Pixels::Srgb8(pixels)) => png_rgb(frame.width, frame.height, pixels),
-        (Target::Srgb8, Pixels::Share8(pixels)) => {
-            png(frame.width, frame.height, pixels, ExtendedColorType::L8)
+    let bytes = encode(&path.display().to_string(), Format::of(path)?, frame)?;
+    save_bytes(path, &bytes)
+}
+
+/// The bytes of a picture. `file` names it in errors.
+///
+/// # Errors
+/// [`SaveError::WrongPixels`], [`SaveError::Encode`].
+pub fn encode(file: &str, format: Format, frame: &Frame) -> Result<Vec<u8>, SaveError> {
+    let (width, height) = (frame.width, frame.height);
+    let encoded = match (format, &frame.pixels) {
+        (Format::Png, Pixels::Srgb8(pixels)) => encode::png_rgb(width, height, pixels),
+        (Format::Png, Pixels::Share8(pixels)) => {
+            encode::png(width, height, pixels, ExtendedColorType::L8)
         }
-        (Target::Linear, Pixels::Linear(pixels)) => exr(frame.width, frame.height, pixels),
-        (Target::Srgb8, Pixels::Linear(_)) => return wrong("PNG", "8-bit"),
-        (Target::Linear, _) => return wrong("EXR", "linear"),
+        (Format::Exr, Pixels::Linear(pixels)) => encode::exr(width, height, pixels),
+        (Format::Hdr, Pixels::Linear(pixels)) => encode::hdr(width, height, pixels),
+        (format, _) => {
+            let (format, expected) = match format {
+                Format::Png => ("PNG", "8-bit"),
+                Format::Exr => ("EXR", "linear"),
+                Format::Hdr => ("HDR", "linear"),
+            };
+            return Err(SaveError::WrongPixels {
+                file: file.to_string(),
+                format,
+                expected,
+            });
+        }
     };
-    let bytes = encoded.map_err(|reason| SaveError::Encode {
-        file: file(),
+    encoded.map_err(|reason| SaveError::Encode {
+        file: file.to_string(),
         reason,
-    })?;
-    write_whole(path, &bytes).map_err(|source| SaveError::Write {
-        file: file(),
-        source,
     })
 }
 
-/// The sky is opaque, so alpha stays out of the file.
-fn png_rgb(width: u32, height: u32, pixels: &[[u8; 4]]) -> Result<Vec<u8>, String> {
-    let rgb: Vec<u8> = pixels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
-    png(width, height, &rgb, ExtendedColorType::Rgb8)
-}
-
-fn png(
-    width: u32,
-    height: u32,
-    samples: &[u8],
-    colour: ExtendedColorType,
-) -> Result<Vec<u8>, String> {
-    let mut bytes = Vec::new();
-    let encoder = image::codecs::png::PngEncoder::new(&mut bytes);
-    encoder
-        .write_image(samples, width, height, colour)
-        .map_err(|e| e.to_string())?;
-    Ok(bytes)
-}
-
-/// Half-float RGB with ZIP compression and the chromaticities of BT.709, which are also those that
-/// readers assume where none are given.
-fn exr(width: u32, height: u32, pixels: &[[f16; 4]]) -> Result<Vec<u8>, String> {
-    let size = (width as usize, height as usize);
-    let channels = SpecificChannels::rgb(|at: Vec2<usize>| {
-        let [r, g, b, _] = pixels[at.y() * size.0 + at.x()];
-        (r, g, b)
-    });
-    let comment = "Linear BT.709 radiance; 1.0 is the white of a sunlit cloud at noon.";
-    let attributes = LayerAttributes {
-        software_name: Some(Text::from(concat!(
-            "welkin-view ",
-            env!("CARGO_PKG_VERSION")
-        ))),
-        comments: Some(Text::from(comment)),
-        ..Default::default()
-    };
-    let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, channels);
-    let mut image = Image::from_layer(layer);
-    image.attributes.chromaticities = Some(BT709);
-    let mut bytes = Cursor::new(Vec::new());
-    image
-        .write()
-        .non_parallel()
-        .to_buffered(&mut bytes)
-        .map_err(|e| e.to_string())?;
-    Ok(bytes.into_inner())
+/// Writes a file whole or not at all.
+///
+/// # Errors
+/// [`SaveError::Write`].
+pub fn save_bytes(path: &Path, bytes: &[u8]) -> Result<(), SaveError> {
+    write_whole(path, bytes).map_err(|source| SaveError::Write {
+        file: path.display().to_string(),
+        source,
+    })
 }
 
 /// Writes a file that is there whole or, if that fails, as it was before.
@@ -171,16 +187,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
         // A device or a folder would be renamed over.
         return Err(io::Error::other("there is something that is not a file"));
     }
-    let folder = path
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".welkin-");
-    // As open as the umask allows: temporary files are private unless told otherwise.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
+    let mut file = folder::temporary_name(0o666).tempfile_in(folder::parent_of(path))?;
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
     file.persist(path).map_err(|e| e.error)?;
@@ -190,7 +197,9 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use exr::prelude::read_first_rgba_layer_from_file;
+    use half::f16;
 
+    use super::encode::BT709;
     use super::*;
 
     const SIZE: [u32; 2] = [3, 2];
@@ -285,6 +294,10 @@ mod tests {
         ));
         assert!(matches!(
             save_as("frame.PNG", linear_frame()),
+            Err(SaveError::WrongPixels { .. })
+        ));
+        assert!(matches!(
+            save_as("frame.hdr", srgb_frame()),
             Err(SaveError::WrongPixels { .. })
         ));
         assert!(matches!(

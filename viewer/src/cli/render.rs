@@ -9,6 +9,7 @@ use welkin_viewer::headless::View;
 
 use super::clear_sky::ClearSkyArgs;
 use super::clouds::{CloudArgs, OWNERS};
+use super::export::{ExportArgs, Shot};
 use super::lit::{self, LitArgs};
 use super::sprites::{self, SpriteArgs};
 use super::values::{azimuth_deg, elevation_deg, fov_deg, oktas, place_m, seconds, size, unit};
@@ -19,8 +20,9 @@ use super::{belongs, is_given};
 pub struct RenderArgs {
     /// Folder of the pack
     pub pack: PathBuf,
-    /// Picture to write; its name ends in .png or .exr. A file of that name is replaced
-    #[arg(short, long, value_name = "FRAME.png|.exr")]
+    /// Picture to write; its name ends in .png, .exr or .hdr. A file of that name is replaced. With --cubemap a .ktx2 or a folder,
+    /// with --frames a folder
+    #[arg(short, long, value_name = "FRAME.png|.exr|.hdr")]
     pub output: PathBuf,
     /// Pixels, width by height
     #[arg(long, value_name = "WxH", default_value = "1600x1200", value_parser = size, allow_hyphen_values = true)]
@@ -47,6 +49,8 @@ pub struct RenderArgs {
     pub weather: WeatherArgs,
     #[command(flatten)]
     pub camera: CameraArgs,
+    #[command(flatten)]
+    pub export: ExportArgs,
 }
 
 /// How the clouds are made.
@@ -129,9 +133,9 @@ fn skybox_help() -> String {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Camera")]
 pub struct CameraArgs {
-    /// Azimuth of the view, from north (0) towards east (90), -360 to 360
-    #[arg(long, value_name = "DEG", default_value_t = Viewpoint::default().azimuth_deg, value_parser = azimuth_deg, allow_negative_numbers = true)]
-    pub azimuth: f32,
+    /// Azimuth of the view, from north (0) towards east (90), -360 to 360 [default: 180; 0 with --equirect]
+    #[arg(long, value_name = "DEG", value_parser = azimuth_deg, allow_negative_numbers = true)]
+    pub azimuth: Option<f32>,
     /// Elevation of the view, -90 to 90: 0 is the horizon, 90 the zenith
     #[arg(long, value_name = "DEG", default_value_t = Viewpoint::default().elevation_deg, value_parser = elevation_deg, allow_negative_numbers = true)]
     pub elevation: f32,
@@ -157,6 +161,14 @@ impl RenderArgs {
             camera: self.camera.camera(self.size),
             seconds: self.at,
         }
+    }
+
+    /// What becomes of it.
+    ///
+    /// # Errors
+    /// That the name of the output does not suit it.
+    pub fn shot(&self) -> Result<Shot, String> {
+        self.export.shot(&self.output)
     }
 
     fn params(&self) -> SkyParams {
@@ -194,6 +206,11 @@ impl RenderArgs {
     /// Which option it is, and whose; or that its value is not for this method.
     pub fn refuse_others(&self, given: &ArgMatches) -> Result<(), String> {
         self.clear_sky.refuse_others(given)?;
+        let (rain, flare) = (self.weather.rain, self.light.flare);
+        self.export.refuse_others(given, rain, flare)?;
+        if self.export.is_used() {
+            self.shot()?;
+        }
         let method = Method::from(self.method);
         let stray =
             owners().find(|(option, owners)| is_given(given, option) && !owners.contains(&method));
@@ -249,7 +266,7 @@ impl CameraArgs {
 
     fn viewpoint(&self) -> Viewpoint {
         Viewpoint {
-            azimuth_deg: self.azimuth,
+            azimuth_deg: self.azimuth.unwrap_or(Viewpoint::default().azimuth_deg),
             elevation_deg: self.elevation,
             fov_deg: self.fov,
             east_m: self.east,

@@ -1,0 +1,256 @@
+//! The options of environment maps and of sequences.
+
+mod refuse;
+
+use std::ffi::OsStr;
+use std::path::Path;
+
+use clap::{Args, ValueEnum};
+use welkin_viewer::export::sequence::{FPS, MOST_FRAMES, Sequence, Shard};
+use welkin_viewer::export::{cubemap, equirect};
+use welkin_viewer::save::Format;
+
+use super::values::within;
+
+/// Frames a second without --fps.
+const USUAL_FPS: f64 = 30.0;
+
+/// What is drawn other than one frame.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Environment maps and sequences")]
+pub struct ExportArgs {
+    #[arg(long, value_name = "W", conflicts_with = "cubemap", value_parser = width, allow_negative_numbers = true, help = equirect_help())]
+    pub equirect: Option<u32>,
+    #[arg(long, value_name = "N", value_parser = side, allow_negative_numbers = true, help = cubemap_help())]
+    pub cubemap: Option<u32>,
+    #[arg(long, value_name = "N", value_parser = frames, allow_negative_numbers = true, help = frames_help())]
+    pub frames: Option<u32>,
+    #[arg(long, value_name = "F", requires = "frames", value_parser = fps, allow_negative_numbers = true, help = fps_help())]
+    pub fps: Option<f64>,
+    /// Draw one of several parts of the sequence, such as 2/4: every fourth frame, from the second on. Together the parts are the
+    /// whole, byte for byte; several may be drawn into the same folder at the same time
+    #[arg(
+        long,
+        value_name = "PART/PARTS",
+        requires = "frames",
+        allow_hyphen_values = true
+    )]
+    pub shard: Option<Shard>,
+    /// Format of the files in a folder [default: png; exr with --equirect or --cubemap; ktx2 with --cubemap and --frames]
+    #[arg(long, value_enum)]
+    pub format: Option<FormatName>,
+}
+
+/// Format of a file in a folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FormatName {
+    /// 8-bit sRGB
+    Png,
+    /// Linear radiance, half floats
+    Exr,
+    /// Linear radiance, RGBE
+    Hdr,
+    /// Linear radiance, half floats: the six faces of --cubemap in one file
+    Ktx2,
+}
+
+/// What one moment of the sky becomes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shot {
+    /// What the camera sees.
+    Frame(Format),
+    /// A panorama of so many columns.
+    Equirect(u32, Format),
+    /// A cube map of so many texels a side in one file.
+    Ktx2(u32),
+    /// The same as a folder of six pictures.
+    Faces(u32, Format),
+}
+
+impl Shot {
+    /// What the name of its file ends in, without the dot. A folder's has nothing.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Shot::Frame(format) | Shot::Equirect(_, format) => format.extension(),
+            Shot::Ktx2(_) => "ktx2",
+            Shot::Faces(..) => "",
+        }
+    }
+}
+
+fn equirect_help() -> String {
+    let [least, most] = equirect::WIDTHS;
+    format!(
+        "Draw the whole sky as a panorama (equirectangular) of W by W/2 texels, an even number from {least} to {most}: .exr and .hdr hold \
+         radiance. North is in the middle, or what --azimuth says, east to the right of it, the zenith above"
+    )
+}
+
+fn cubemap_help() -> String {
+    let [least, most] = cubemap::SIDES;
+    format!(
+        "Draw the whole sky on the six faces of a cube, N by N texels each, a power of two from {least} to {most}: into one .ktx2, or into \
+         a folder as px, nx, py, ny, pz, nz (east, west, up, down, north, south)"
+    )
+}
+
+fn frames_help() -> String {
+    format!(
+        "Draw a sequence of N frames, 1 to {MOST_FRAMES}, into the folder that --output names, as frame-000000.png and so on; frame k is \
+         k / F seconds after --at. Frames that are there are replaced"
+    )
+}
+
+fn fps_help() -> String {
+    let [least, most] = FPS;
+    format!("Frames a second, {least} to {most} [default: {USUAL_FPS}]")
+}
+
+fn width(text: &str) -> Result<u32, String> {
+    let [least, most] = equirect::WIDTHS;
+    match text.parse::<u32>() {
+        Ok(width) if (least..=most).contains(&width) && width.is_multiple_of(2) => Ok(width),
+        _ => Err(format!("expected an even number from {least} to {most}")),
+    }
+}
+
+fn side(text: &str) -> Result<u32, String> {
+    let [least, most] = cubemap::SIDES;
+    match text.parse::<u32>() {
+        Ok(side) if (least..=most).contains(&side) && side.is_power_of_two() => Ok(side),
+        _ => Err(format!("expected a power of two from {least} to {most}")),
+    }
+}
+
+fn frames(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(count) if (1..=MOST_FRAMES).contains(&count) => Ok(count),
+        _ => Err(format!("expected a whole number from 1 to {MOST_FRAMES}")),
+    }
+}
+
+fn fps(text: &str) -> Result<f64, String> {
+    let [least, most] = FPS;
+    within(text, least..=most, " frames a second")
+}
+
+impl ExportArgs {
+    /// Whether the whole sky is drawn, and not what a camera sees.
+    pub fn is_map(&self) -> bool {
+        self.equirect.is_some() || self.cubemap.is_some()
+    }
+
+    /// Whether anything but one frame was asked for.
+    pub fn is_used(&self) -> bool {
+        self.is_map() || self.frames.is_some() || self.format.is_some()
+    }
+
+    /// The sequence, if there is one.
+    pub fn sequence(&self, start_s: f64) -> Option<Sequence> {
+        Some(Sequence {
+            frames: self.frames?,
+            fps: self.fps.unwrap_or(USUAL_FPS),
+            start_s,
+            shard: self.shard.unwrap_or(Shard::WHOLE),
+        })
+    }
+
+    /// What one moment becomes.
+    ///
+    /// # Errors
+    /// That the name of the output, or the format, does not suit it.
+    pub fn shot(&self, output: &Path) -> Result<Shot, String> {
+        match (self.frames, self.equirect, self.cubemap) {
+            (None, None, None) => self.named(output, "").map(Shot::Frame),
+            (None, Some(width), _) => self
+                .named(output, "--equirect")
+                .map(|format| Shot::Equirect(width, format)),
+            (None, None, Some(side)) => self.cube(output, side),
+            (Some(_), ..) => self.in_sequence(output),
+        }
+    }
+
+    /// The format that the name of a file says.
+    fn named(&self, output: &Path, option: &str) -> Result<Format, String> {
+        if self.format.is_some() {
+            return Err(
+                "--format is for the files in a folder, of --frames or of --cubemap; leave it out, the name of the output says the format"
+                    .to_string(),
+            );
+        }
+        Format::of(output).map_err(|error| {
+            let hint = if is_ktx2(output) {
+                "; .ktx2 is for --cubemap"
+            } else {
+                ""
+            };
+            let option = if option.is_empty() { "" } else { ", with " }.to_string() + option;
+            format!("--output{option}: {error}{hint}")
+        })
+    }
+
+    fn cube(&self, output: &Path, side: u32) -> Result<Shot, String> {
+        let shown = output.display();
+        match (is_ktx2(output), self.format) {
+            (true, None | Some(FormatName::Ktx2)) => return Ok(Shot::Ktx2(side)),
+            (true, Some(_)) => {
+                return Err(format!(
+                    "--format is for the files in a folder, and {shown} is one file; leave it out or name a folder"
+                ));
+            }
+            (false, Some(FormatName::Ktx2)) => {
+                return Err(format!(
+                    "--format ktx2 is one file for all six faces, and {shown} would be a folder; name the output something.ktx2"
+                ));
+            }
+            (false, _) => {}
+        }
+        // A name of a picture would become a folder's: hardly what was meant.
+        if Format::of(output).is_ok() {
+            return Err(format!(
+                "--cubemap writes six faces, and {shown} is the name of one picture; name a folder and choose with --format, or name something.ktx2"
+            ));
+        }
+        Ok(Shot::Faces(side, self.picture(Format::Exr)))
+    }
+
+    fn in_sequence(&self, output: &Path) -> Result<Shot, String> {
+        if Format::of(output).is_ok() || is_ktx2(output) {
+            return Err(format!(
+                "--frames writes a folder of files, and {} is the name of one; name a folder and choose with --format",
+                output.display()
+            ));
+        }
+        let ktx2 = self.format == Some(FormatName::Ktx2);
+        match (self.equirect, self.cubemap) {
+            (_, Some(side)) if ktx2 || self.format.is_none() => Ok(Shot::Ktx2(side)),
+            (_, Some(_)) => Err(
+                "--cubemap with --frames writes a .ktx2 for each frame; leave --format out, or take --equirect"
+                    .to_string(),
+            ),
+            _ if ktx2 => Err(
+                "--format ktx2 belongs to --cubemap; add it, or take png, exr or hdr".to_string(),
+            ),
+            (Some(width), None) => Ok(Shot::Equirect(width, self.picture(Format::Exr))),
+            (None, None) => Ok(Shot::Frame(self.picture(Format::Png))),
+        }
+    }
+
+    /// The format that was chosen for pictures, or the usual one.
+    fn picture(&self, usual: Format) -> Format {
+        match self.format {
+            Some(FormatName::Png) => Format::Png,
+            Some(FormatName::Exr) => Format::Exr,
+            Some(FormatName::Hdr) => Format::Hdr,
+            Some(FormatName::Ktx2) | None => usual,
+        }
+    }
+}
+
+fn is_ktx2(path: &Path) -> bool {
+    let extension = path.extension().and_then(OsStr::to_str);
+    extension.is_some_and(|e| e.eq_ignore_ascii_case("ktx2"))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,203 @@
+//! Sequences of frames: which moments they are, what they are called, and how they are cut into parts.
+//!
+//! Frame k is the sky at `start + k / fps` seconds, whoever draws it and whatever was drawn before. So the parts of a sequence may be drawn by
+//! several programs, on several machines, into one folder, and are together what one program draws.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use crate::save::{SaveError, verify_folder};
+
+/// Frames that a sequence may have: as many as six digits count.
+pub const MOST_FRAMES: u32 = 1_000_000;
+
+/// Frames a second that a sequence may have.
+pub const FPS: [f64; 2] = [0.001, 1000.0];
+
+/// One of several parts of a sequence: of `count` parts, number `index` from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// Its number, 1 to `count`.
+    pub index: u32,
+    /// How many parts there are.
+    pub count: u32,
+}
+
+impl Shard {
+    /// All of a sequence.
+    pub const WHOLE: Shard = Shard { index: 1, count: 1 };
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Shard, String> {
+        let numbers = text.split_once('/');
+        let numbers = numbers.and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+        match numbers {
+            Some((index, count)) if (1..=count).contains(&index) && count <= MOST_FRAMES => {
+                Ok(Shard { index, count })
+            }
+            _ => Err(format!(
+                "expected PART/PARTS, two whole numbers, the first from 1 to the second and that at most {MOST_FRAMES}, such as 2/4"
+            )),
+        }
+    }
+}
+
+/// A sequence, or a part of one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sequence {
+    /// Frames of the whole.
+    pub frames: u32,
+    /// Frames a second.
+    pub fps: f64,
+    /// The moment of frame 0, in seconds.
+    pub start_s: f64,
+    /// Which part.
+    pub shard: Shard,
+}
+
+impl Sequence {
+    /// Numbers of the frames of the part: every n-th, so that parts take about as long.
+    pub fn numbers(&self) -> impl ExactSizeIterator<Item = u32> + use<> {
+        (self.shard.index - 1..self.frames).step_by(self.shard.count as usize)
+    }
+
+    /// The moment of a frame, in seconds.
+    pub fn seconds(&self, number: u32) -> f64 {
+        self.start_s + f64::from(number) / self.fps
+    }
+}
+
+/// The name of a frame's file.
+pub fn file_name(number: u32, extension: &str) -> String {
+    format!("frame-{number:06}.{extension}")
+}
+
+/// Whether a file has a name that [`file_name`] gives for one of these extensions.
+pub fn is_frame(name: &str, extensions: &[&str]) -> bool {
+    let number = name
+        .strip_prefix("frame-")
+        .and_then(|rest| rest.split_once('.'))
+        .filter(|(digits, _)| digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit()));
+    number.is_some_and(|(_, extension)| extensions.contains(&extension))
+}
+
+/// The folder of a sequence, made if it is not there. Others may be writing frames into it.
+///
+/// # Errors
+/// [`SaveError::NotAFolder`], [`SaveError::NotOurs`] if there is a folder with anything but frames in it, [`SaveError::Write`].
+pub fn open_folder(place: &Path, extensions: &[&str]) -> Result<(), SaveError> {
+    match fs::create_dir(place) {
+        Ok(()) => return Ok(()),
+        // Here before, or made by another part just now.
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+        Err(source) => {
+            let file = place.display().to_string();
+            return Err(SaveError::Write { file, source });
+        }
+    }
+    verify_folder(place, |name| is_frame(name, extensions)).map(|_| ())
+}
+
+/// Where a frame goes.
+pub fn path(folder: &Path, number: u32, extension: &str) -> PathBuf {
+    folder.join(file_name(number, extension))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sequence(frames: u32, shard: &str) -> Sequence {
+        Sequence {
+            frames,
+            fps: 24.0,
+            start_s: 10.0,
+            shard: shard.parse().unwrap(),
+        }
+    }
+
+    #[test]
+    fn parts_have_every_frame_once() {
+        for (frames, count) in [(1, 1), (10, 1), (10, 3), (10, 10), (3, 7), (1000, 64)] {
+            let mut all: Vec<u32> = (1..=count)
+                .flat_map(|i| sequence(frames, &format!("{i}/{count}")).numbers())
+                .collect();
+            all.sort_unstable();
+            assert_eq!(all, (0..frames).collect::<Vec<_>>());
+        }
+        // No part has more than one frame more than another.
+        let lengths = [1, 2, 3].map(|i| sequence(10, &format!("{i}/3")).numbers().len());
+        assert_eq!(lengths, [4, 3, 3]);
+    }
+
+    #[test]
+    fn a_frame_has_the_same_moment_in_every_part() {
+        let whole = sequence(1_000_000, "1/1");
+        assert_eq!(whole.seconds(0), 10.0);
+        assert_eq!(whole.seconds(24), 11.0);
+        // Not a sum of steps, which would drift.
+        assert_eq!(whole.seconds(999_984), 10.0 + 41_666.0);
+        for number in sequence(1_000_000, "5/7").numbers().take(5) {
+            assert_eq!(sequence(9, "1/2").seconds(number), whole.seconds(number));
+        }
+    }
+
+    #[test]
+    fn what_is_no_part_is_refused() {
+        assert_eq!("2/4".parse(), Ok(Shard { index: 2, count: 4 }));
+        for text in [
+            "",
+            "1",
+            "0/4",
+            "5/4",
+            "1/0",
+            "-1/4",
+            "1/2/3",
+            "a/b",
+            "1/1000001",
+            "1.5/2",
+        ] {
+            let error = text.parse::<Shard>().unwrap_err();
+            assert!(error.contains("PART/PARTS"), "{text}");
+        }
+    }
+
+    #[test]
+    fn frames_are_known_by_their_names() {
+        assert_eq!(file_name(7, "png"), "frame-000007.png");
+        assert_eq!(file_name(MOST_FRAMES - 1, "exr"), "frame-999999.exr");
+        for name in ["frame-000007.png", "frame-999999.exr"] {
+            assert!(is_frame(name, &["png", "exr"]));
+        }
+        for name in [
+            "frame-7.png",
+            "frame-0000007.png",
+            "frame-00000a.png",
+            "frame-000007.gif",
+            "frame-000007",
+            "my-frame-000007.png",
+            "frame-000007.png.txt",
+        ] {
+            assert!(!is_frame(name, &["png", "exr"]), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_folder_with_something_else_in_it_is_refused() {
+        let parent = tempfile::tempdir().unwrap();
+        let place = parent.path().join("frames");
+        open_folder(&place, &["png"]).unwrap();
+        fs::write(place.join("frame-000003.png"), "").unwrap();
+        fs::write(place.join(".welkin-abc"), "").unwrap();
+        open_folder(&place, &["png"]).unwrap();
+        fs::write(place.join("notes.txt"), "").unwrap();
+        let error = open_folder(&place, &["png"]).unwrap_err();
+        assert!(error.to_string().contains("notes.txt"), "{error}");
+        assert!(open_folder(&parent.path().join("none/frames"), &["png"]).is_err());
+    }
+}

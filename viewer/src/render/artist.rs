@@ -1,0 +1,120 @@
+//! Draws what one moment of the sky becomes: a file or a folder of files.
+
+use std::path::Path;
+
+use anyhow::Result;
+use welkin_pack::Pack;
+use welkin_viewer::export::Environment;
+use welkin_viewer::export::cube::FACES;
+use welkin_viewer::export::cubemap::Cubemap;
+use welkin_viewer::export::display::displayed;
+use welkin_viewer::frame::Frame;
+use welkin_viewer::gpu::{Gpu, GpuError};
+use welkin_viewer::headless::{Stage, View};
+use welkin_viewer::save::{Format, encode, save_bytes, save_folder, verify_folder};
+
+use crate::cli::Shot;
+
+/// A sky, and what it becomes.
+pub enum Artist<'a> {
+    /// What the camera sees.
+    Frame(Stage<'a>, Format),
+    /// A panorama, so wide and with this azimuth in its middle.
+    Equirect(Environment<'a>, u32, f32, Format),
+    /// A cube map with faces of this side, in one file.
+    Ktx2(Environment<'a>, u32),
+    /// The same as six pictures.
+    Faces(Environment<'a>, u32, Format),
+}
+
+/// What was drawn, ready to be saved.
+pub enum Encoded {
+    File(Vec<u8>),
+    Folder(Vec<(String, Vec<u8>)>),
+}
+
+impl<'a> Artist<'a> {
+    /// For the sky of a pack; `azimuth_rad` is what is in the middle of a panorama.
+    pub fn new(
+        gpu: &'a Gpu,
+        pack: &Pack,
+        shot: Shot,
+        azimuth_rad: f32,
+    ) -> Result<Artist<'a>, GpuError> {
+        let everywhere = || Environment::new(gpu, pack);
+        Ok(match shot {
+            Shot::Frame(format) => Artist::Frame(Stage::new(gpu, pack, format.target())?, format),
+            Shot::Equirect(width, format) => {
+                Artist::Equirect(everywhere()?, width, azimuth_rad, format)
+            }
+            Shot::Ktx2(side) => Artist::Ktx2(everywhere()?, side),
+            Shot::Faces(side, format) => Artist::Faces(everywhere()?, side, format),
+        })
+    }
+
+    /// Draws a moment, whatever was drawn before. `file` names it in errors.
+    pub fn draw(&mut self, view: &View, file: &str) -> Result<Encoded> {
+        let encoded = match self {
+            Artist::Frame(stage, format) => {
+                stage.forget();
+                encode(file, *format, &stage.draw(view)?)?
+            }
+            Artist::Equirect(sky, width, azimuth_rad, format) => {
+                let map = sky.equirect(view, *width, *azimuth_rad)?;
+                encode(file, *format, &shown_as(*format, map))?
+            }
+            Artist::Ktx2(sky, side) => sky.cubemap(view, *side)?.ktx2(file)?,
+            Artist::Faces(sky, side, format) => {
+                let map = sky.cubemap(view, *side)?;
+                return faces(&map, *format, file).map(Encoded::Folder);
+            }
+        };
+        Ok(Encoded::File(encoded))
+    }
+}
+
+/// Names and bytes of the pictures of the faces.
+fn faces(map: &Cubemap, format: Format, folder: &str) -> Result<Vec<(String, Vec<u8>)>> {
+    let face = |(index, face): (usize, &str)| {
+        let name = face_name(face, format);
+        let picture = shown_as(format, map.frame(index));
+        let bytes = encode(&format!("{folder}/{name}"), format, &picture)?;
+        Ok((name, bytes))
+    };
+    FACES.into_iter().enumerate().map(face).collect()
+}
+
+/// Draws one moment and saves it.
+pub fn draw(mut artist: Artist<'_>, view: &View, output: &Path) -> Result<()> {
+    if matches!(artist, Artist::Faces(..)) {
+        // Before anything slow begins.
+        verify_folder(output, is_face)?;
+    }
+    match artist.draw(view, &output.display().to_string())? {
+        Encoded::File(bytes) => save_bytes(output, &bytes)?,
+        Encoded::Folder(files) => save_folder(output, &files, is_face)?,
+    }
+    Ok(())
+}
+
+/// Radiance as the format wants it.
+fn shown_as(format: Format, map: Frame) -> Frame {
+    match format {
+        Format::Png => displayed(map),
+        Format::Exr | Format::Hdr => map,
+    }
+}
+
+fn face_name(face: &str, format: Format) -> String {
+    format!("{face}.{}", format.extension())
+}
+
+/// Whether a file has a name of a face.
+fn is_face(name: &str) -> bool {
+    let of = |face: &&str| {
+        Format::ALL
+            .iter()
+            .any(|&format| name == face_name(face, format))
+    };
+    FACES.iter().any(of)
+}
