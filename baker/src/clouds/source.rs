@@ -56,7 +56,7 @@ impl Photo {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "photo"))]
 mod tests {
     use super::*;
 
