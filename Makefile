@@ -19,7 +19,7 @@ STORM := --time 0.42 --cover 0.92 --density 0.75 --azimuth 40 --elevation 25
 # Mesa's device selection complains of a desktop session that is not there; without it, nothing is lost.
 export NODEVICE_SELECT := 1
 
-.PHONY: help sky gallery test check bench tools gpu-tools node-tools clean
+.PHONY: help sky view gallery web test web-test check bench tools gpu-tools window-tools desktop-tools node-tools web-tools browser clean
 
 help: ## Say what can be made
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
@@ -112,6 +112,10 @@ gallery: sky ## Draw the pictures of docs/lit.md and docs/sprites.md into out/li
 	done
 	$(VIEW) render $(PACK) -o out/sprites/far.png $(SPRITES) --cover 0.6 --time 0.45 --azimuth 100 --elevation -14 --up 9000 --sight 60000
 
+web: web-tools ## Build the page with the sky in WebAssembly into out/web/, for any web server
+	$(CARGO) build --release --locked -p welkin-baker
+	scripts/web-build
+
 test: gpu-tools window-tools desktop-tools node-tools ## Run every test, and formatting, lints and docs without a warning
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
@@ -119,6 +123,11 @@ test: gpu-tools window-tools desktop-tools node-tools ## Run every test, and for
 	$(CARGO) build --release --locked -p welkin-baker
 	WELKIN_RELEASE=$(CURDIR)/$(WELKIN) $(CARGO) test --workspace --locked -- --include-ignored
 	if $(CARGO) tree --locked -e normal,build -p welkin-baker | grep -q ' wgpu '; then echo "the baker must not need wgpu"; exit 1; fi
+	$(MAKE) web-test
+
+web-test: web gpu-tools browser ## Test the page: its bakes, and its pictures in headless Chromium
+	$(CARGO) build --release --locked -p welkin-viewer
+	cd web && node --test 'test/*.test.mjs'
 
 check: ## Compile and lint, without running anything
 	$(CARGO) fmt --all --check
@@ -129,7 +138,7 @@ bench: gpu-tools ## Measure the bake, and the GPU milliseconds of a frame of eac
 	$(WELKIN) bake -o $(PACK) --force
 	$(VIEW) bench $(PACK) --method all
 
-tools: gpu-tools window-tools desktop-tools node-tools ## Install what pictures, window and tests need, with apt, where it is missing
+tools: gpu-tools window-tools desktop-tools node-tools web-tools browser ## Install what pictures, window, page and tests need, with apt, where it is missing
 
 # A Vulkan driver and a GL one: any GPU's, or Mesa's software ones. `ls` finds the driver files that the loaders read.
 gpu-tools:
@@ -157,6 +166,13 @@ node-tools:
 	@[ -d tests/node/node_modules/ktx-parse ] && [ -d tests/node/node_modules/gltf-validator ] \
 	  || npm --prefix tests/node ci --no-audit --no-fund --silent
 
+# wasm-opt and the driver of the browser come from npm; scripts/wasm-build looks for the compiler.
+web-tools: node-tools
+	@[ -d web/node_modules/binaryen ] && [ -d web/node_modules/playwright-core ] || npm --prefix web ci --no-audit --no-fund --silent
+
+browser:
+	@command -v $(or $(CHROMIUM),/usr/bin/chromium) >/dev/null || scripts/apt-install chromium
+
 clean: ## Remove what was made
 	$(CARGO) clean
-	rm -rf out packs tests/node/node_modules
+	rm -rf out packs tests/node/node_modules web/node_modules

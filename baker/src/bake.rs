@@ -6,9 +6,10 @@ use std::path::Path;
 use welkin_pack::manifest::Input;
 use welkin_pack::{Field, Format, Image, Pack, PackInfo, Role, Source};
 
-use crate::clouds::{self, photo};
+use crate::clouds::{self, photo, source::Photo};
 use crate::error::BakeError;
-use crate::load::{self, Picture};
+use crate::inputs::{Inputs, Picture};
+use crate::load;
 use crate::settings::{FieldSettings, PhotoSettings, Resolved, SkyboxSettings, SpritesSettings};
 use crate::{fbm, field, flares, galaxy, layers, octaves, sky, skybox, sprites, stars, sun};
 
@@ -43,7 +44,19 @@ pub fn bake(
     base: Option<&Path>,
     progress: OnProgress,
 ) -> Result<Pack, BakeError> {
-    let files = Files::read(resolved, base)?;
+    bake_from(resolved, Inputs::Folder(base), progress)
+}
+
+/// The same from files that are anywhere.
+///
+/// # Errors
+/// As [`bake`].
+pub fn bake_from(
+    resolved: &Resolved,
+    inputs: Inputs,
+    progress: OnProgress,
+) -> Result<Pack, BakeError> {
+    let files = Files::read(resolved, inputs)?;
     let total = step_count(resolved) + 1;
     let step = |step, done| advance(progress, step, done, total);
     let sources = make(resolved, &files, &step)?;
@@ -74,7 +87,7 @@ pub fn sources(
     base: Option<&Path>,
     progress: OnProgress,
 ) -> Result<Vec<Source>, BakeError> {
-    let files = Files::read(resolved, base)?;
+    let files = Files::read(resolved, Inputs::Folder(base))?;
     let total = step_count(resolved);
     let step = |step, done| advance(progress, step, done, total);
     let sources = make(resolved, &files, &step)?;
@@ -108,7 +121,11 @@ pub fn skybox_faces(
     settings: &SkyboxSettings,
     base: Option<&Path>,
 ) -> Result<Vec<Image>, BakeError> {
-    skybox::images(settings, &skybox::read(settings, base)?, &|| Ok(()))
+    skybox::images(
+        settings,
+        &skybox::read(settings, Inputs::Folder(base))?,
+        &|| Ok(()),
+    )
 }
 
 /// The field of clouds. `base` is the folder that relative paths of models start from.
@@ -121,7 +138,11 @@ pub fn cloud_field(
     base: Option<&Path>,
     seed: u64,
 ) -> Result<Field, BakeError> {
-    field::field(settings, &field::read(settings, base)?, seed)
+    field::field(
+        settings,
+        &field::read(settings, Inputs::Folder(base))?,
+        seed,
+    )
 }
 
 /// The sheet of cloud sprites: grey and opacity, 0..1, as level 0 of the role `sprites` has them.
@@ -135,38 +156,33 @@ pub fn sprite_sheet(
     seed: u64,
     base: Option<&Path>,
 ) -> Result<Image, BakeError> {
-    sprites::image(settings, &sprites::read(settings, base)?, seed)
+    sprites::image(
+        settings,
+        &sprites::read(settings, Inputs::Folder(base))?,
+        seed,
+    )
 }
 
 /// The files that a recipe names.
 struct Files {
-    photo: Option<Picture>,
+    photo: Photo,
     sprites: Vec<Picture>,
     skybox: Vec<Picture>,
     models: Vec<Picture>,
 }
 
 impl Files {
-    fn read(resolved: &Resolved, base: Option<&Path>) -> Result<Files, BakeError> {
-        let photo = resolved.clouds.photo.file.as_ref();
-        let photo = photo.map(|file| Picture::read(base, file, load::PHOTO_KEY));
+    fn read(resolved: &Resolved, inputs: Inputs) -> Result<Files, BakeError> {
         let skybox = resolved.skybox.as_ref();
-        let skybox = skybox.map(|settings| skybox::read(settings, base));
+        let skybox = skybox.map(|settings| skybox::read(settings, inputs));
         let models = resolved.field.as_ref();
-        let models = models.map(|settings| field::read(settings, base));
+        let models = models.map(|settings| field::read(settings, inputs));
         Ok(Files {
-            photo: photo.transpose()?,
-            sprites: sprites::read(&resolved.sprites, base)?,
+            photo: Photo::read(&resolved.clouds.photo, inputs)?,
+            sprites: sprites::read(&resolved.sprites, inputs)?,
             skybox: skybox.transpose()?.unwrap_or_default(),
             models: models.transpose()?.unwrap_or_default(),
         })
-    }
-
-    fn photo_channel(&self, settings: &PhotoSettings) -> Result<Image, BakeError> {
-        match &self.photo {
-            Some(photo) => photo_channel(&photo.bytes, &photo.file, settings),
-            None => photo_channel(photo::BUILT_IN, photo::BUILT_IN_NAME, settings),
-        }
     }
 
     fn inputs(&self) -> Vec<Input> {
@@ -174,7 +190,12 @@ impl Files {
             key: picture.key.clone(),
             blake3: blake3::hash(&picture.bytes).to_hex().to_string(),
         };
-        let pictures = self.photo.iter().chain(&self.sprites).chain(&self.skybox);
+        let pictures = self
+            .photo
+            .named()
+            .into_iter()
+            .chain(&self.sprites)
+            .chain(&self.skybox);
         pictures.chain(&self.models).map(input).collect()
     }
 }
@@ -190,7 +211,7 @@ fn make(
 ) -> Result<Vec<Source>, BakeError> {
     let (seed, clouds) = (resolved.seed, &resolved.clouds);
     step(STEPS[0], 0)?;
-    let red = files.photo_channel(&clouds.photo)?;
+    let red = files.photo.channel(&clouds.photo)?;
     step(STEPS[1], 1)?;
     let green = clouds::noise::channel(&clouds.noise, clouds.size, seed, "clouds.noise");
     step(STEPS[2], 2)?;

@@ -5,7 +5,8 @@
 
 pub(crate) mod gradient;
 pub(crate) mod noise;
-pub(crate) mod photo;
+pub mod photo;
+pub(crate) mod source;
 
 use welkin_pack::Image;
 

@@ -26,6 +26,7 @@ mod filter;
 mod flares;
 mod fractal;
 mod galaxy;
+mod inputs;
 mod lattice;
 mod layers;
 mod load;
@@ -40,8 +41,12 @@ mod stars;
 mod stream;
 mod sun;
 
-pub use bake::{Progress, bake, cloud_field, photo_channel, skybox_faces, sources, sprite_sheet};
+pub use bake::{
+    Progress, bake, bake_from, cloud_field, photo_channel, skybox_faces, sources, sprite_sheet,
+};
+pub use clouds::photo::BUILT_IN_NAME as BUILT_IN_PHOTO;
 pub use error::{BakeError, RecipeError};
+pub use inputs::Inputs;
 pub use load::read_photo;
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{

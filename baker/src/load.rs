@@ -7,19 +7,19 @@ mod exr;
 mod hdr;
 mod sky;
 
-use std::fs::File;
-use std::io::{Cursor, Read};
-use std::path::{Path, PathBuf};
+use std::io::Cursor;
+use std::path::Path;
 
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use welkin_pack::Image;
 
 use crate::error::BakeError;
+use crate::inputs::read_file;
 
 pub(crate) use sky::decode_sky;
 
 /// The largest file that is read, in bytes: an 8192x8192 PNG of noise is smaller.
-const MAX_FILE_BYTES: u64 = 256 << 20;
+pub(crate) const MAX_FILE_BYTES: u64 = 256 << 20;
 
 /// The largest side of a picture, in texels.
 const MAX_SIDE: u32 = 8192;
@@ -35,66 +35,23 @@ const MAX_DECODED_BYTES: u64 = 512 << 20;
 /// # Errors
 /// [`BakeError::Read`], or [`BakeError::Photo`] if it is larger.
 pub fn read_photo(path: &Path) -> Result<Vec<u8>, BakeError> {
-    read(path, PHOTO_KEY)
+    read_file(path, PHOTO_KEY)
 }
 
 /// The key of the photograph in the recipe.
 pub(crate) const PHOTO_KEY: &str = "clouds.photo.file";
 
-/// A picture file that a recipe names.
-pub(crate) struct Picture {
-    /// Its key in the recipe.
-    pub key: String,
-    /// Its path, for errors.
-    pub file: String,
-    /// What is in it.
-    pub bytes: Vec<u8>,
-}
-
-impl Picture {
-    /// Reads `file`, the value of `key`; a relative path starts from the folder `base`.
-    pub fn read(base: Option<&Path>, file: &str, key: &str) -> Result<Picture, BakeError> {
-        let path = match base {
-            _ if Path::new(file).is_absolute() => PathBuf::from(file),
-            Some(folder) => folder.join(file),
-            None => {
-                return Err(BakeError::NoBase {
-                    file: file.to_string(),
-                    key: key.to_string(),
-                });
-            }
-        };
-        Ok(Picture {
-            key: key.to_string(),
-            file: path.display().to_string(),
-            bytes: read(&path, key)?,
-        })
-    }
-}
-
-/// Reads the bytes of a picture that the recipe names under `key`.
-fn read(path: &Path, key: &str) -> Result<Vec<u8>, BakeError> {
-    let file = path.display().to_string();
-    let failed = |source| BakeError::Read {
-        file: file.clone(),
-        key: key.to_string(),
-        source,
-    };
-    let opened = File::open(path).map_err(failed)?;
-    let mut bytes = Vec::new();
-    opened
-        .take(MAX_FILE_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(failed)?;
+/// Looks at the length of a file.
+pub(crate) fn verify_bytes(file: &str, bytes: &[u8]) -> Result<(), BakeError> {
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(unfit(
-            &file,
+            file,
             "length",
             "over 256 MiB",
             "at most 256 MiB; save it smaller",
         ));
     }
-    Ok(bytes)
+    Ok(())
 }
 
 /// Decodes a PNG or a JPEG to red, green and blue as stored (gamma-encoded), 0..1.

@@ -13,7 +13,6 @@
 //! azimuth, and faces go on where they meet, so that there is neither a pinch nor a seam.
 
 use std::f32::consts::{PI, TAU};
-use std::path::Path;
 
 use rayon::prelude::*;
 use welkin_pack::Image;
@@ -21,7 +20,8 @@ use welkin_pack::format::CUBE_FACES;
 use welkin_pack::mapping::{cube_texel, cube_to_direction, direction_to_cube};
 
 use crate::error::BakeError;
-use crate::load::{self, Picture, unfit_size};
+use crate::inputs::{Inputs, Picture};
+use crate::load::{self, unfit_size};
 use crate::settings::{SkyboxPicture, SkyboxSettings};
 
 /// Sides that a picture of a face may have, in texels: no more than a pack's faces have.
@@ -35,16 +35,12 @@ const SMALLEST: u32 = 16;
 const LARGEST_BY_ITSELF: u32 = 512;
 
 /// Reads the files that the settings name, in the order of the faces.
-pub(crate) fn read(
-    settings: &SkyboxSettings,
-    base: Option<&Path>,
-) -> Result<Vec<Picture>, BakeError> {
+pub(crate) fn read(settings: &SkyboxSettings, inputs: Inputs) -> Result<Vec<Picture>, BakeError> {
     match &settings.picture {
-        SkyboxPicture::Panorama { file, .. } => Ok(vec![Picture::read(base, file, "skybox.file")?]),
+        SkyboxPicture::Panorama { file, .. } => Ok(vec![inputs.read(file, "skybox.file")?]),
         SkyboxPicture::Faces(files) => {
             let named = CUBE_FACES.iter().zip(files);
-            let read = named
-                .map(|(face, file)| Picture::read(base, file, &format!("skybox.faces.{face}")));
+            let read = named.map(|(face, file)| inputs.read(file, &format!("skybox.faces.{face}")));
             read.collect()
         }
     }

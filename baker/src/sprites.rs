@@ -24,7 +24,7 @@ mod volume;
 use welkin_pack::{Image, SheetCell, SheetKind};
 
 use crate::error::BakeError;
-use crate::load::Picture;
+use crate::inputs::Picture;
 use crate::settings::{SpriteShape, SpriteSource, SpritesSettings};
 use crate::stream::Stream;
 use march::picture;

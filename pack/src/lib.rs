@@ -21,8 +21,9 @@ pub mod pack;
 #[cfg(test)]
 #[cfg(feature = "write")]
 mod pack_tests;
+mod read;
 pub mod role;
-#[cfg(feature = "write")]
+#[cfg(all(feature = "write", not(target_family = "wasm")))]
 mod save;
 #[cfg(test)]
 #[cfg(feature = "write")]
@@ -40,9 +41,11 @@ pub use image::Image;
 pub use layer_kind::LayerKind;
 pub use manifest::Manifest;
 pub use mapping::{FlareCell, SheetCell, SheetKind};
+#[cfg(all(feature = "write", not(target_family = "wasm")))]
+pub use pack::Overwrite;
 pub use pack::Pack;
 #[cfg(feature = "write")]
-pub use pack::{Overwrite, PackInfo, Source};
+pub use pack::{PackInfo, Source};
 pub use role::Role;
 pub use texel::{
     CloudTexel, FbmTexel, FlareTexel, GalaxyTexel, LayerTexel, OctaveTexel, SkyTexel, SkyboxTexel,

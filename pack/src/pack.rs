@@ -1,17 +1,17 @@
 //! A pack in memory: built from images, opened from a folder, saved to one.
 
-use std::fs;
-use std::io::{self, Read};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::field::glb;
 use crate::limits::{MAX_FIELD_BYTES, MAX_FILE_BYTES, MAX_MANIFEST_BYTES};
 use crate::manifest::MANIFEST_FILE;
+use crate::read::{in_folder, in_memory, join};
 use crate::{Field, Manifest, PackError, Role, Texture, ktx};
 
 #[cfg(feature = "write")]
 pub use crate::build::{PackInfo, Source};
-#[cfg(feature = "write")]
+#[cfg(all(feature = "write", not(target_family = "wasm")))]
 pub use crate::save::Overwrite;
 
 /// A pack: its manifest, its textures and its field of clouds, which agree with each other.
@@ -55,8 +55,18 @@ impl Pack {
     pub fn open(folder: impl AsRef<Path>) -> Result<Pack, PackError> {
         let folder = folder.as_ref();
         Pack::from_files(&folder.display().to_string(), |name, limit| {
-            read_file(folder, name, limit)
+            in_folder(folder, name, limit)
         })
+    }
+
+    /// Reads a pack from the bytes of its files by their names, and verifies it as [`Pack::open`] does.
+    ///
+    /// `place` stands before file names in errors.
+    ///
+    /// # Errors
+    /// As [`Pack::open`].
+    pub fn from_memory(place: &str, files: &BTreeMap<String, Vec<u8>>) -> Result<Pack, PackError> {
+        Pack::from_files(place, |name, limit| in_memory(place, files, name, limit))
     }
 
     /// Reads a pack through `read(name, limit)`, which gives the bytes of a file of at most `limit` bytes.
@@ -103,44 +113,4 @@ impl Pack {
             files,
         })
     }
-}
-
-fn join(place: &str, name: &str) -> String {
-    format!("{}/{name}", place.trim_end_matches('/'))
-}
-
-/// Reads a file of a pack's folder that has at most `limit` bytes.
-pub(crate) fn read_file(folder: &Path, name: &str, limit: u64) -> Result<Vec<u8>, PackError> {
-    let path = folder.join(name);
-    let file = path.display().to_string();
-    let failed = |source: io::Error| match source.kind() {
-        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => PackError::Missing {
-            file: file.clone(),
-            expected: format!("a file of the pack {}", folder.display()),
-        },
-        _ => PackError::Read {
-            file: file.clone(),
-            source,
-        },
-    };
-    let mut handle = fs::File::open(&path).map_err(failed)?;
-    let size = handle.metadata().map_err(failed)?.len();
-    let mut bytes = Vec::new();
-    if size <= limit {
-        // A device or a growing file may hold more than it says.
-        (&mut handle)
-            .take(limit + 1)
-            .read_to_end(&mut bytes)
-            .map_err(failed)?;
-    }
-    let found = size.max(bytes.len() as u64);
-    if found > limit {
-        return Err(PackError::TooLarge {
-            file,
-            key: "size in bytes".to_string(),
-            found,
-            limit,
-        });
-    }
-    Ok(bytes)
 }

@@ -1,5 +1,6 @@
 //! Packs on disk: opened, refused, saved whole or not at all.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -199,6 +200,30 @@ fn a_missing_file_is_named() {
         Pack::open(place.path().join("nowhere")),
         Err(PackError::Missing { .. })
     ));
+}
+
+#[test]
+fn files_in_memory_are_read_as_those_of_a_folder() {
+    let place = tempfile::tempdir().unwrap();
+    write(&pack(), place.path());
+    let name = place.path().display().to_string();
+    let mut files: BTreeMap<_, _> = pack().files().iter().cloned().collect();
+    assert_eq!(Pack::from_memory(&name, &files).unwrap(), pack());
+    let alike = |files: &BTreeMap<_, _>| {
+        let both = [Pack::from_memory(&name, files), Pack::open(place.path())];
+        let [memory, folder] = both.map(|pack| pack.unwrap_err().to_string());
+        assert_eq!(memory, folder);
+    };
+    files.remove("stars.ktx2");
+    fs::remove_file(place.path().join("stars.ktx2")).unwrap();
+    alike(&files);
+    let large = vec![b' '; crate::limits::MAX_MANIFEST_BYTES as usize + 1];
+    fs::write(place.path().join(MANIFEST_FILE), &large).unwrap();
+    files.insert(MANIFEST_FILE.to_string(), large);
+    alike(&files);
+    fs::remove_file(place.path().join(MANIFEST_FILE)).unwrap();
+    files.clear();
+    alike(&files);
 }
 
 #[test]

@@ -23,10 +23,20 @@ use crate::filter::{self, Edge};
 use crate::settings::PhotoSettings;
 
 /// The photograph that is used when a recipe names none; assets-src/SOURCES.md says whose it is.
-pub(crate) const BUILT_IN: &[u8] = include_bytes!("../../../assets-src/photos/god-rays-1024.png");
+#[cfg(feature = "photo")]
+pub(crate) const BUILT_IN: Option<&[u8]> = Some(include_bytes!(
+    "../../../assets-src/photos/god-rays-1024.png"
+));
+/// It is larger than the rest of the library, so that it may be left out.
+#[cfg(not(feature = "photo"))]
+pub(crate) const BUILT_IN: Option<&[u8]> = None;
 
-/// The name that errors give the built-in photograph.
-pub(crate) const BUILT_IN_NAME: &str = "built-in photograph";
+/// BLAKE3 of its bytes, in lower-case hexadecimal.
+pub(crate) const BUILT_IN_BLAKE3: &str =
+    "523490efb81147a06951731826110f864652dd1211cad5d043da3214911259b5";
+
+/// The name of the built-in photograph in errors and, without the feature `photo`, among the files in memory.
+pub const BUILT_IN_NAME: &str = "built-in photograph";
 
 /// Share of the tile that is blended with the opposite side.
 const MARGIN: f32 = 0.25;

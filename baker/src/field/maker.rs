@@ -4,8 +4,6 @@
 //! of the ground that is below clouds when half of it is added: then showing the clouds whose rank is at most `c` covers the
 //! share `c`, to half a cloud. Layers go on where the one before has ended.
 
-use std::path::Path;
-
 use welkin_pack::Field;
 use welkin_pack::field::Cloud;
 
@@ -14,7 +12,7 @@ use super::ground::{Ground, SEEN};
 use super::spread::Spread;
 use super::{kinds, model};
 use crate::error::BakeError;
-use crate::load::Picture;
+use crate::inputs::{Inputs, Picture};
 use crate::settings::{BoxSettings, CloudLayerSettings, FieldSettings, ModelSettings, ModelSource};
 use crate::stream::Stream;
 
@@ -34,17 +32,14 @@ const LEAST_ASKED: u32 = 12;
 ///
 /// # Errors
 /// [`BakeError::Read`], [`BakeError::NoBase`] or [`BakeError::Photo`].
-pub(crate) fn read(
-    settings: &FieldSettings,
-    base: Option<&Path>,
-) -> Result<Vec<Picture>, BakeError> {
+pub(crate) fn read(settings: &FieldSettings, inputs: Inputs) -> Result<Vec<Picture>, BakeError> {
     let files = settings.models.iter().enumerate();
     files
         .filter_map(|(index, model)| match &model.source {
             ModelSource::File(file) => Some((index, file)),
             ModelSource::Boxes(_) => None,
         })
-        .map(|(index, file)| Picture::read(base, file, &format!("field.models[{index}].file")))
+        .map(|(index, file)| inputs.read(file, &format!("field.models[{index}].file")))
         .collect()
 }
 

@@ -3,8 +3,9 @@
 use image::{DynamicImage, ImageFormat, Rgba};
 use welkin_pack::Image;
 
-use super::{MAX_SIDE, Picture, decode_stored, exr, hdr, unfit, unfit_size};
+use super::{MAX_SIDE, decode_stored, exr, hdr, unfit, unfit_size};
 use crate::error::BakeError;
+use crate::inputs::Picture;
 
 /// The most texels of a sky: 8192x4096, which take 512 MiB as floats.
 const MAX_SKY_TEXELS: u64 = 1 << 25;

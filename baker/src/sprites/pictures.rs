@@ -1,12 +1,11 @@
 //! Pictures instead of noise: one of all cells, or one a cell.
 
-use std::path::Path;
-
 use welkin_pack::{Image, SheetCell};
 
 use crate::error::BakeError;
 use crate::filter;
-use crate::load::{self, Picture, unfit, unfit_size};
+use crate::inputs::{Inputs, Picture};
+use crate::load::{self, unfit, unfit_size};
 use crate::settings::{SpriteSource, SpritesSettings};
 
 /// Sides that a cell may have in a picture, in texels.
@@ -19,18 +18,14 @@ const MOST_BORDER: f32 = 0.05;
 const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
 
 /// Reads the files that the settings name, in the order of the cells.
-pub(crate) fn read(
-    settings: &SpritesSettings,
-    base: Option<&Path>,
-) -> Result<Vec<Picture>, BakeError> {
+pub(crate) fn read(settings: &SpritesSettings, inputs: Inputs) -> Result<Vec<Picture>, BakeError> {
     match &settings.source {
         SpriteSource::Noise(_) => Ok(Vec::new()),
-        SpriteSource::Sheet(file) => Ok(vec![Picture::read(base, file, "sprites.file")?]),
+        SpriteSource::Sheet(file) => Ok(vec![inputs.read(file, "sprites.file")?]),
         SpriteSource::Cells(files) => {
             let named = files.iter().enumerate();
-            let read = named.map(|(cell, file)| {
-                Picture::read(base, file, &format!("sprites.pictures[{cell}]"))
-            });
+            let read =
+                named.map(|(cell, file)| inputs.read(file, &format!("sprites.pictures[{cell}]")));
             read.collect()
         }
     }

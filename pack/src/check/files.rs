@@ -1,7 +1,5 @@
 //! The files of a pack: seal, manifest, hashes, containers, layouts.
 
-use std::path::Path;
-
 use super::report::Report;
 use super::rule::{
     CONTAINER, FIELD_FILE, FILE_HASH, LAYOUT, MANIFEST, ROLES, SEAL, STATISTICS, TEXEL_HASH,
@@ -10,17 +8,29 @@ use super::{field, report::Bound, subject};
 use crate::field::glb;
 use crate::limits::{MAX_FIELD_BYTES, MAX_FILE_BYTES, MAX_MANIFEST_BYTES};
 use crate::manifest::{FieldEntry, MANIFEST_FILE, TextureEntry};
-use crate::pack::read_file;
+use crate::read::join;
 use crate::{Field, Manifest, PackError, Role, Texture, ktx};
+
+/// Gives the bytes of a file of at most so many.
+type Read<'a> = &'a dyn Fn(&str, u64) -> Result<Vec<u8>, PackError>;
+
+/// Where the files of a pack are.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a> {
+    /// Stands before file names in errors.
+    pub name: &'a str,
+    /// Reads them.
+    pub read: Read<'a>,
+}
 
 /// What could be read of a pack.
 type Contents = (Vec<(Role, Texture)>, Option<Field>);
 
 /// Checks the files and gives the textures that could be decoded and are laid out as their role asks, and the field of
 /// clouds.
-pub(super) fn check(report: &mut Report, folder: &Path) -> Result<Contents, PackError> {
-    let bytes = read_file(folder, MANIFEST_FILE, MAX_MANIFEST_BYTES)?;
-    let file = folder.join(MANIFEST_FILE).display().to_string();
+pub(super) fn check(report: &mut Report, place: Place) -> Result<Contents, PackError> {
+    let bytes = (place.read)(MANIFEST_FILE, MAX_MANIFEST_BYTES)?;
+    let file = join(place.name, MANIFEST_FILE);
     let manifest = Manifest::parse(&file, &bytes)?;
     report.verify(SEAL, MANIFEST_FILE, manifest.verify_seal(&file, &bytes));
     let sound = report
@@ -41,15 +51,15 @@ pub(super) fn check(report: &mut Report, folder: &Path) -> Result<Contents, Pack
     }
     let textures = manifest.textures.iter();
     let textures = textures
-        .filter_map(|entry| Some((entry.role, check_entry(report, folder, entry)?)))
+        .filter_map(|entry| Some((entry.role, check_entry(report, place, entry)?)))
         .collect();
     let entry = manifest.field.as_ref();
-    Ok((textures, entry.and_then(|e| check_field(report, folder, e))))
+    Ok((textures, entry.and_then(|e| check_field(report, place, e))))
 }
 
-fn check_field(report: &mut Report, folder: &Path, entry: &FieldEntry) -> Option<Field> {
-    let file = folder.join(&entry.file).display().to_string();
-    let bytes = read_file(folder, &entry.file, MAX_FIELD_BYTES);
+fn check_field(report: &mut Report, place: Place, entry: &FieldEntry) -> Option<Field> {
+    let file = join(place.name, &entry.file);
+    let bytes = (place.read)(&entry.file, MAX_FIELD_BYTES);
     let bytes = bytes.and_then(|bytes| entry.verify_file(&file, &bytes).map(|()| bytes));
     let Some(bytes) = report.verify(FILE_HASH, field::SUBJECT, bytes) else {
         report.skip(FIELD_FILE, field::SUBJECT, "the file is missing or damaged");
@@ -60,10 +70,10 @@ fn check_field(report: &mut Report, folder: &Path, entry: &FieldEntry) -> Option
     report.verify(FIELD_FILE, field::SUBJECT, clouds)
 }
 
-fn check_entry(report: &mut Report, folder: &Path, entry: &TextureEntry) -> Option<Texture> {
-    let file = folder.join(&entry.file).display().to_string();
+fn check_entry(report: &mut Report, place: Place, entry: &TextureEntry) -> Option<Texture> {
+    let file = join(place.name, &entry.file);
     let name = entry.role.name();
-    let bytes = read_file(folder, &entry.file, MAX_FILE_BYTES);
+    let bytes = (place.read)(&entry.file, MAX_FILE_BYTES);
     let bytes = bytes.and_then(|bytes| entry.verify_file(&file, &bytes).map(|()| bytes));
     let Some(bytes) = report.verify(FILE_HASH, name, bytes) else {
         skip(

@@ -1,7 +1,7 @@
 //! Semantic checks: whether every channel of a pack is what it claims to be.
 //!
 //! A container validator sees bytes; these rules know what a star, a seam or a sunset gradient is. They run
-//! on a folder, go on after a broken file, and report every rule with its figure. Rules that lean on
+//! on a folder or on files in memory, go on after a broken file, and report every rule with its figure. Rules that lean on
 //! statistics say how often they would blame a sound pack: never more than once in a million.
 
 mod chance;
@@ -27,12 +27,15 @@ mod sun;
 mod tests;
 mod tiling;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 pub use report::{Finding, Outcome, Report};
 pub use rule::{RULES, Rule, Severity};
 
+use crate::read::{in_folder, in_memory};
 use crate::{PackError, Role, Texture};
+use files::Place;
 
 /// Checks the pack in a folder.
 ///
@@ -40,8 +43,29 @@ use crate::{PackError, Role, Texture};
 /// [`PackError`] if the manifest cannot be read at all: then there is nothing to check. Everything else
 /// that is wrong, a damaged texture too, is in the report.
 pub fn check(folder: impl AsRef<Path>) -> Result<Report, PackError> {
+    let folder = folder.as_ref();
+    check_place(Place {
+        name: &folder.display().to_string(),
+        read: &|name, limit| in_folder(folder, name, limit),
+    })
+}
+
+/// Checks a pack whose files are in memory, by their names: the same rules, the same report.
+///
+/// `place` stands before file names in errors.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_memory(place: &str, files: &BTreeMap<String, Vec<u8>>) -> Result<Report, PackError> {
+    check_place(Place {
+        name: place,
+        read: &|name, limit| in_memory(place, files, name, limit),
+    })
+}
+
+fn check_place(place: Place) -> Result<Report, PackError> {
     let mut report = Report::default();
-    let (textures, clouds) = files::check(&mut report, folder.as_ref())?;
+    let (textures, clouds) = files::check(&mut report, place)?;
     for (role, texture) in &textures {
         check_texture(&mut report, *role, texture);
     }

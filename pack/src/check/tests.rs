@@ -8,8 +8,9 @@ mod sprites;
 mod stars;
 
 use std::fs;
+use std::path::Path;
 
-use super::{Outcome, RULES, Report, Severity, check};
+use super::{Outcome, RULES, Report, Severity, check, check_memory};
 use crate::manifest::MANIFEST_FILE;
 use crate::test_pack::{Stream, half_float_pack, pack, with, with_texture, write};
 use crate::{Image, Manifest, Pack, Role, Texture, ktx};
@@ -17,7 +18,20 @@ use crate::{Image, Manifest, Pack, Role, Texture, ktx};
 fn check_pack(pack: &Pack) -> Report {
     let folder = tempfile::tempdir().unwrap();
     write(pack, folder.path());
-    check(folder.path()).unwrap()
+    check_both(folder.path())
+}
+
+/// Checks a folder, and sees that its files in memory give the same report.
+fn check_both(folder: &Path) -> Report {
+    let report = check(folder).unwrap();
+    let files = fs::read_dir(folder).unwrap().map(|entry| {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap();
+        (name.to_string(), fs::read(&path).unwrap())
+    });
+    let memory = check_memory(&folder.display().to_string(), &files.collect());
+    assert_eq!(memory.unwrap(), report);
+    report
 }
 
 /// The rules that report errors.
@@ -109,7 +123,7 @@ fn check_with_manifest(seal_again: bool, change: impl FnOnce(&mut Manifest)) -> 
         json = json.replace("\"name\": \"test\"", "\"name\": \"best\"");
     }
     fs::write(folder.path().join(MANIFEST_FILE), json).unwrap();
-    check(folder.path()).unwrap()
+    check_both(folder.path())
 }
 
 #[test]
@@ -185,9 +199,9 @@ fn a_damaged_file_breaks_its_hash() {
     let last = bytes.len() - 1;
     bytes[last] ^= 1;
     fs::write(&path, bytes).unwrap();
-    assert_eq!(errors(&check(folder.path()).unwrap()), ["file-hash"]);
+    assert_eq!(errors(&check_both(folder.path())), ["file-hash"]);
     fs::remove_file(&path).unwrap();
-    assert_eq!(errors(&check(folder.path()).unwrap()), ["file-hash"]);
+    assert_eq!(errors(&check_both(folder.path())), ["file-hash"]);
 }
 
 #[test]
@@ -201,7 +215,7 @@ fn a_broken_container_with_a_true_hash_is_an_error() {
     manifest.textures[2].file_blake3 = blake3::hash(&bytes).to_hex().to_string();
     fs::write(folder.path().join("galaxy.ktx2"), bytes).unwrap();
     fs::write(folder.path().join(MANIFEST_FILE), manifest.to_json()).unwrap();
-    assert_eq!(errors(&check(folder.path()).unwrap()), ["container"]);
+    assert_eq!(errors(&check_both(folder.path())), ["container"]);
 }
 
 #[test]

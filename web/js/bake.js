@@ -1,0 +1,55 @@
+// Bakes packs in a worker of its own, which is loaded by the first bake and ended after each.
+
+/** Pictures that are delivered with the page, by the names under which recipes ask for them. */
+const DELIVERED = { '../photos/clouds-web.jpg': new URL('./clouds-web.jpg', import.meta.url) };
+
+/** Bakes a recipe. */
+export async function bake(recipe, { seed, files = new Map(), onprogress, signal } = {}) {
+  signal?.throwIfAborted();
+  const inputs = new Map(files instanceof Map ? files : Object.entries(files));
+  for (const [name, address] of Object.entries(DELIVERED)) {
+    if (recipe.includes(name) && !inputs.has(name)) inputs.set(name, await fetchInput(address, signal));
+  }
+  return work({ recipe, seed: seedOf(seed), inputs }, onprogress, signal);
+}
+
+async function fetchInput(address, signal) {
+  const answer = await fetch(address, { signal });
+  if (!answer.ok) throw new Error(`${address}: cannot be fetched: the server answers ${answer.status}`);
+  return new Uint8Array(await answer.arrayBuffer());
+}
+
+/** A seed as the baker takes it, or nothing: then it is the recipe's. */
+function seedOf(seed) {
+  if (seed === undefined || seed === null || seed === '') return undefined;
+  if (!/^\d+$/.test(String(seed)) || BigInt(seed) >= 1n << 64n) {
+    throw new Error(`seed is ${seed}, expected a whole number from 0 to ${(1n << 64n) - 1n}`);
+  }
+  return BigInt(seed);
+}
+
+function work(order, onprogress, signal) {
+  const worker = new Worker(new URL('./baker-worker.js', import.meta.url), { type: 'module', name: 'welkin baker' });
+  const aborted = () => finish(() => reject(signal.reason));
+  const finish = (settle) => {
+    worker.terminate();
+    signal?.removeEventListener('abort', aborted);
+    settle();
+  };
+  let reject;
+  const done = new Promise((resolve, refuse) => {
+    reject = refuse;
+    worker.onmessage = ({ data }) => {
+      if (data.files) finish(() => resolve(data.files));
+      else if (data.error) finish(() => reject(new Error(data.error)));
+      else onprogress?.(data.done / data.total, data.step);
+    };
+    worker.onerror = (event) => {
+      event.preventDefault();
+      finish(() => reject(new Error(`the baker stopped: ${event.message ?? 'it could not be loaded'}`)));
+    };
+    signal?.addEventListener('abort', aborted);
+  });
+  worker.postMessage(order);
+  return done;
+}
