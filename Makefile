@@ -115,6 +115,7 @@ gallery: sky ## Draw the pictures of docs/lit.md and docs/sprites.md into out/li
 web: web-tools ## Build the page with the sky in WebAssembly into out/web/, for any web server
 	$(CARGO) build --release --locked -p welkin-baker
 	scripts/web-build
+	@echo "the page is in out/web/: python3 -m http.server -d out/web, then http://localhost:8000"
 
 test: gpu-tools window-tools desktop-tools node-tools ## Run every test, and formatting, lints and docs without a warning
 	$(CARGO) fmt --all --check
@@ -126,8 +127,8 @@ test: gpu-tools window-tools desktop-tools node-tools ## Run every test, and for
 	$(MAKE) web-test
 
 web-test: web gpu-tools browser ## Test the page: its bakes, and its pictures in headless Chromium
-	$(CARGO) build --release --locked -p welkin-viewer
-	cd web && node --test 'test/*.test.mjs'
+	$(CARGO) build --locked -p welkin-viewer
+	cd web && WELKIN_VIEW=$(CURDIR)/target/debug/welkin-view node --test --test-concurrency=1 test/*.test.mjs
 
 check: ## Compile and lint, without running anything
 	$(CARGO) fmt --all --check

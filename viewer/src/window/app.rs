@@ -239,6 +239,9 @@ impl App {
             Ok(baked) => {
                 let is_saved = baked.saved_to.is_some();
                 self.show(baked.pack, baked.saved_to, is_saved);
+                for warning in baked.warnings {
+                    self.state.tell(warning);
+                }
             }
             Err(error) => self.state.tell_error(format!("the old sky stays: {error}")),
         }

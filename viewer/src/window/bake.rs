@@ -1,5 +1,6 @@
 //! Baking in the background: the newest job wins, and what it makes is sound or is not handed over.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -7,6 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::{Context, Result, bail};
 use welkin_baker::Recipe;
+use welkin_pack::check::check_memory;
 use welkin_pack::{Overwrite, Pack};
 use winit::event_loop::EventLoopProxy;
 
@@ -39,6 +41,8 @@ pub struct Baked {
     pub pack: Pack,
     /// The folder that it was written to.
     pub saved_to: Option<PathBuf>,
+    /// What `welkin check` warns of.
+    pub warnings: Vec<String>,
 }
 
 /// Bakes in the background.
@@ -97,13 +101,31 @@ fn bake(
             ControlFlow::Break(())
         }
     })?;
+    tell("check", 1.0);
+    let warnings = checked(&pack)?;
     if let Some(folder) = &job.save_to {
         pack.save(folder, Overwrite::Replace, &|| !is_newest())?;
     }
     Ok(Baked {
         pack,
         saved_to: job.save_to.clone(),
+        warnings,
     })
+}
+
+/// The warnings of `welkin check` about a pack.
+///
+/// # Errors
+/// What it finds wrong: then the pack is not sound.
+fn checked(pack: &Pack) -> Result<Vec<String>> {
+    let files: BTreeMap<String, Vec<u8>> = pack.files().iter().cloned().collect();
+    let report = check_memory("the new pack", &files)?;
+    let problems = report.problems().map(ToString::to_string);
+    let problems: Vec<String> = problems.collect();
+    if !report.is_sound() {
+        bail!("the new pack is not sound: {}", problems.join("; "));
+    }
+    Ok(problems)
 }
 
 fn read(job: &Job) -> Result<Recipe> {
