@@ -127,7 +127,7 @@ test: gpu-tools window-tools desktop-tools node-tools ## Run every test, and for
 
 web-test: web gpu-tools browser ## Test the page: its bakes, and its pictures in headless Chromium
 	$(CARGO) build --release --locked -p welkin-viewer
-	cd web && node --test 'test/*.test.mjs'
+	cd web && node --test --test-concurrency=1 test/*.test.mjs
 
 check: ## Compile and lint, without running anything
 	$(CARGO) fmt --all --check
