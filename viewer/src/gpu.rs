@@ -181,7 +181,8 @@ impl Gpu {
             .slice(..)
             .map_async(wgpu::MapMode::Read, move |mapped| drop(sender.send(mapped)));
         self.wait()?;
-        let mapped = receiver.try_recv().map_err(|e| self.failed(e))?;
+        // Another thread that waits for this device may be the one that calls back, a moment later.
+        let mapped = receiver.recv().map_err(|e| self.failed(e))?;
         mapped.map_err(|e| self.failed(e))?;
         let bytes = buffer
             .slice(..)
