@@ -225,8 +225,10 @@ fn settled(desktop: &Desktop) -> Screen {
 fn a_dropped_photograph_becomes_the_photo_channel() {
     let desktop = Desktop::new();
     let photo = desktop.file("stripes of mine.png");
+    // Soft ones: a channel with hard edges is not sound.
     let stripes = image::RgbImage::from_fn(128, 128, |x, _| {
-        image::Rgb([if x / 16 % 2 == 0 { 250 } else { 20 }; 3])
+        let wave = (x as f32 * std::f32::consts::TAU / 64.0).sin();
+        image::Rgb([(128.0 + 120.0 * wave) as u8; 3])
     });
     stripes.save(&photo).unwrap();
     let program = open(&desktop, &[pack().to_str().unwrap()]);
