@@ -224,13 +224,13 @@ fn settled(desktop: &Desktop) -> Screen {
 #[test]
 fn a_dropped_photograph_becomes_the_photo_channel() {
     let desktop = Desktop::new();
-    let photo = desktop.file("stripes of mine.png");
-    // Soft ones: a channel with hard edges is not sound.
-    let stripes = image::RgbImage::from_fn(128, 128, |x, _| {
-        let wave = (x as f32 * std::f32::consts::TAU / 64.0).sin();
-        image::Rgb([(128.0 + 120.0 * wave) as u8; 3])
-    });
-    stripes.save(&photo).unwrap();
+    let photo = desktop.file("a photograph.png");
+    let built_in = "../assets-src/photos/god-rays-1024.png";
+    image::open(built_in)
+        .unwrap()
+        .rotate90()
+        .save(&photo)
+        .unwrap();
     let program = open(&desktop, &[pack().to_str().unwrap()]);
     let before = settled(&desktop);
     program.drop_file(&photo);
@@ -239,12 +239,15 @@ fn a_dropped_photograph_becomes_the_photo_channel() {
     });
     let broken = desktop.file("broken.png");
     std::fs::write(&broken, "no picture").unwrap();
-    let striped = settled(&desktop);
+    let with_photo = settled(&desktop);
     program.drop_file(&broken);
     eventually("what is no picture is told", || {
         desktop.screen().reddish_in_panel() > 50
     });
-    assert!(!desktop.screen().sky_differs(&striped), "the old sky stays");
+    assert!(
+        !desktop.screen().sky_differs(&with_photo),
+        "the old sky stays"
+    );
 }
 
 #[test]

@@ -185,14 +185,13 @@ mod tests {
     #[test]
     fn a_photograph_becomes_the_photo_channel_and_the_pack_is_written() {
         let folder = tempfile::tempdir().unwrap();
-        let photo = folder.path().join("stripes.png");
-        // Soft ones: a channel with hard edges is not sound.
-        let stripes = image::RgbImage::from_fn(128, 128, |x, y| {
-            let wave =
-                |px: u32, width_px: f32| (px as f32 * std::f32::consts::TAU / width_px).sin();
-            image::Rgb([(128.0 + 60.0 * wave(x, 64.0) + 60.0 * wave(y, 128.0)) as u8; 3])
-        });
-        stripes.save(&photo).unwrap();
+        let photo = folder.path().join("turned.png");
+        let built_in = "../assets-src/photos/god-rays-1024.png";
+        image::open(built_in)
+            .unwrap()
+            .rotate90()
+            .save(&photo)
+            .unwrap();
         let usual = bake(&job(SMALL), &|| true, &|_, _| ()).unwrap().pack;
         let place = folder.path().join("pack");
         let with = Job {
