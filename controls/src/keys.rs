@@ -1,15 +1,17 @@
 //! Every setting: one table.
 
+mod make;
+
 use welkin_runtime::params::{FORMATION_INTERVAL_S, MAX_OCTAVES};
 use welkin_runtime::perez::{CUSTOM, TURBIDITY};
 use welkin_runtime::{Method, SkyModel};
 
-use crate::key::{CommandOption, Group, Input, Key, Slot};
+use crate::key::{Group, Input, Key, Slot};
 use crate::lightning::LIGHTNING_FORM;
 use crate::settings::{SettingError, Settings};
 use crate::text;
+use make::{count, number, place, switch, text, unit};
 
-const ALL: &[Method] = &Method::ALL;
 const OCTAVES: &[Method] = &[Method::Octaves];
 const FBM: &[Method] = &[Method::Fbm];
 const LIT: &[Method] = &[Method::Lit];
@@ -528,145 +530,6 @@ fn edits(a: &str, b: &str) -> usize {
         }
     }
     row[row.len() - 1]
-}
-
-const fn number(
-    name: &'static str,
-    label: &'static str,
-    help: &'static str,
-    group: Group,
-    [low, high]: [f64; 2],
-    unit: &'static str,
-    place: fn(&mut Settings) -> &mut f32,
-) -> Key {
-    Key {
-        name,
-        label,
-        help,
-        group,
-        input: Input::Slider {
-            low,
-            high,
-            unit,
-            logarithmic: false,
-            whole: false,
-        },
-        methods: ALL,
-        option: CommandOption::Value(name),
-        slot: Slot::Number(place),
-        when: |_| true,
-    }
-}
-
-const fn unit(
-    name: &'static str,
-    label: &'static str,
-    help: &'static str,
-    group: Group,
-    place: fn(&mut Settings) -> &mut f32,
-) -> Key {
-    number(name, label, help, group, [0.0, 1.0], "", place)
-}
-
-const fn place(
-    name: &'static str,
-    label: &'static str,
-    help: &'static str,
-    place: fn(&mut Settings) -> &mut f32,
-) -> Key {
-    number(
-        name,
-        label,
-        help,
-        Group::Camera,
-        [-1e6, 1e6],
-        "metres",
-        place,
-    )
-}
-
-const fn count(
-    name: &'static str,
-    label: &'static str,
-    help: &'static str,
-    most: u32,
-    place: fn(&mut Settings) -> &mut u32,
-) -> Key {
-    Key {
-        input: Input::Slider {
-            low: 1.0,
-            high: most as f64,
-            unit: "",
-            logarithmic: false,
-            whole: true,
-        },
-        slot: Slot::Count(place),
-        ..number(name, label, help, Group::Clouds, [0.0; 2], "", |s| {
-            &mut s.rate
-        })
-    }
-}
-
-const fn switch(
-    name: &'static str,
-    label: &'static str,
-    help: &'static str,
-    flag: &'static str,
-    place: fn(&mut Settings) -> &mut bool,
-) -> Key {
-    Key {
-        input: Input::Switch,
-        option: CommandOption::Unless(flag),
-        slot: Slot::Switch(place),
-        ..number(name, label, help, Group::Light, [0.0; 2], "", |s| {
-            &mut s.rate
-        })
-    }
-}
-
-const fn text(
-    name: &'static str,
-    label: &'static str,
-    help: &'static str,
-    group: Group,
-    input: Input,
-    get: fn(&Settings) -> String,
-    set: fn(&mut Settings, &str) -> Result<(), String>,
-) -> Key {
-    Key {
-        input,
-        slot: Slot::Text { get, set },
-        ..number(name, label, help, group, [0.0; 2], "", |s| &mut s.rate)
-    }
-}
-
-impl Key {
-    const fn of(mut self, methods: &'static [Method]) -> Key {
-        self.methods = methods;
-        self
-    }
-
-    const fn when(mut self, when: fn(&Settings) -> bool) -> Key {
-        self.when = when;
-        self
-    }
-
-    const fn option(mut self, option: &'static str) -> Key {
-        self.option = CommandOption::Value(option);
-        self
-    }
-
-    const fn no_option(mut self) -> Key {
-        self.option = CommandOption::None;
-        self
-    }
-
-    const fn logarithmic(mut self) -> Key {
-        if let Input::Slider { logarithmic, .. } = &mut self.input {
-            *logarithmic = true;
-        }
-        self
-    }
 }
 
 #[cfg(test)]
