@@ -44,7 +44,7 @@ export async function showSizes() {
   if (!answer?.ok) return;
   const sizes = await answer.json();
   const { brotli, compressed } = sizes.total;
-  part('download', `download ${bytesText(brotli)}`, `All that the page may load, the baker too: ${bytesText(brotli)} as brotli, ${bytesText(compressed)} as gzip`);
+  part('download', `download ${bytesText(compressed)}`, `All that the page may load, the baker too: ${bytesText(compressed)} as gzip, ${bytesText(brotli)} as brotli`);
 }
 
 /**
