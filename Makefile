@@ -126,8 +126,9 @@ test: gpu-tools window-tools desktop-tools node-tools ## Run every test, and for
 	if $(CARGO) tree --locked -e normal,build -p welkin-baker | grep -q ' wgpu '; then echo "the baker must not need wgpu"; exit 1; fi
 	$(MAKE) web-test
 
+# The viewer is compiled as for the other tests, after which there is nothing to do.
 web-test: web gpu-tools browser ## Test the page: its bakes, and its pictures in headless Chromium
-	$(CARGO) build --locked -p welkin-viewer
+	$(CARGO) build --workspace --all-targets --locked
 	cd web && WELKIN_VIEW=$(CURDIR)/target/debug/welkin-view node --test --test-concurrency=1 test/*.test.mjs
 
 check: ## Compile and lint, without running anything
