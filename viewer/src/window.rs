@@ -14,6 +14,7 @@ mod recipe;
 mod shot;
 mod state;
 mod watch;
+mod wishes;
 
 use anyhow::{Context, Result, anyhow};
 use winit::event_loop::EventLoop;

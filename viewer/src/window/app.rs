@@ -6,20 +6,19 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use welkin_controls::Pilot;
-use welkin_pack::{Overwrite, Pack};
-use welkin_viewer::save::write_whole;
+use welkin_pack::Pack;
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::keyboard::ModifiersState;
-use winit::window::{Fullscreen, Window, WindowId};
+use winit::window::{Window, WindowId};
 
 use super::bake::{Baked, Baker, Job, Text};
 use super::dropped::{Dropped, sort};
 use super::graphics::Graphics;
-use super::state::{State, Wish, read_settings};
-use super::{Wake, command, keyboard, panel, shot, watch};
+use super::state::{State, read_settings};
+use super::{Wake, keyboard, panel, watch};
 use crate::cli::WindowArgs;
 
 /// The longest step of a frame: after a pause of the machine the sky does not leap.
@@ -30,8 +29,8 @@ const NOTCH_PX: f64 = 50.0;
 pub struct App {
     /// Why the window ended, if it was not closed.
     pub failure: Option<anyhow::Error>,
-    state: State,
-    graphics: Option<Graphics>,
+    pub(super) state: State,
+    pub(super) graphics: Option<Graphics>,
     /// Number of the device that is open: one that was left tells of its end too.
     device: u64,
     /// Kept over a lost device, with what is open and where it is scrolled to.
@@ -157,65 +156,6 @@ impl App {
                 Err(error) => self.state.tell_error(format!("{error:#}")),
             }
         }
-    }
-
-    /// Carries a wish out, and tells what was done.
-    fn fulfil(&mut self, wish: Wish) -> Result<Option<String>> {
-        let Some(graphics) = &mut self.graphics else {
-            return Ok(None);
-        };
-        let state = &mut self.state;
-        let size_px = graphics.size_px();
-        match wish {
-            Wish::SaveSettings => {
-                let file = state.files.settings.clone();
-                write_whole(Path::new(&file), state.settings.to_toml().as_bytes()).with_context(
-                    || format!("{file}: cannot be written; choose another place for the settings"),
-                )?;
-                return Ok(Some(format!("{file}: settings saved")));
-            }
-            Wish::LoadSettings => {
-                let file = state.files.settings.clone();
-                state.settings = read_settings(Path::new(&file))?;
-                state.blend = None;
-                return Ok(Some(format!("{file}: settings loaded")));
-            }
-            Wish::SavePicture => {
-                let file = state.files.picture.clone();
-                let pack = &state.source.pack;
-                let place = Path::new(&file);
-                shot::take(&graphics.gpu, pack, &state.settings, size_px, place)?;
-                return Ok(Some(format!("{file}: picture saved")));
-            }
-            Wish::CopyCommand => {
-                let folder = state.source.folder.clone();
-                let folder = folder.unwrap_or_else(|| state.files.pack.clone().into());
-                let picture = &state.files.picture;
-                let text = command::render(&folder, picture, size_px, &state.settings);
-                graphics.egui.set_clipboard_text(text.clone());
-                let unsaved = if state.source.is_saved {
-                    ""
-                } else {
-                    "; save the pack there first"
-                };
-                return Ok(Some(format!("copied{unsaved}: {text}")));
-            }
-            Wish::SavePack => {
-                let folder = PathBuf::from(&state.files.pack);
-                let source = &mut state.source;
-                source.pack.save(&folder, Overwrite::Replace, &|| false)?;
-                (source.folder, source.is_saved) = (Some(folder), true);
-                return Ok(Some(format!("{}: pack saved", state.files.pack)));
-            }
-            // It goes the way of a device that was lost.
-            Wish::RestartGraphics => graphics.gpu.device.destroy(),
-            Wish::ToggleFullscreen => {
-                let is_full = graphics.window.fullscreen().is_some();
-                let full = (!is_full).then_some(Fullscreen::Borderless(None));
-                graphics.window.set_fullscreen(full);
-            }
-        }
-        Ok(None)
     }
 
     /// Bakes the watched recipe, or else the shown pack's own, with the photograph that was dropped.
