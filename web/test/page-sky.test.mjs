@@ -268,6 +268,20 @@ test('a lost WebGL context is said, and the sky made anew', () => browser.visit(
   assert.equal(await page.locator('[role=alert].error').count(), 0);
 }));
 
+test('a lost WebGPU device is said, and the sky made anew', () => browser.visit({ search: '?backend=webgpu&method=lit&paused=true&at=5', expected: /external Instance|device|GPU/i }, async (page) => {
+  const first = await picture(page);
+  await page.evaluate(() => { document.querySelector('#view canvas').dataset.old = 'true'; });
+  // The process that draws dies, as by a driver that fails.
+  const session = await page.context().browser().newBrowserCDPSession();
+  await session.send('Browser.crashGpuProcess');
+  await page.waitForFunction(() => document.querySelectorAll('#view canvas').length === 1 && !document.querySelector('#view canvas[data-old]'));
+  await page.waitForSelector('[data-topic=device][role=status]');
+  assert.match(await page.textContent('[data-topic=device]'), /made anew/);
+  assert.equal(await page.textContent('#status-backend'), 'WebGPU');
+  const { difference } = await compare(page, await picture(page), first);
+  assert.ok(difference < 1, `they differ by ${difference}`);
+}));
+
 test('another backend can be chosen, with the same sky', () => browser.visit({ search: '?backend=webgl2&cover=0.5&at=9&paused=true' }, async (page) => {
   const first = await picture(page);
   await page.click('#graphics-group summary');
