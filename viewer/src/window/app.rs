@@ -44,6 +44,8 @@ pub struct App {
     /// When the panel wants to be drawn again by itself.
     panel_due: Option<Instant>,
     modifiers: ModifiersState,
+    /// Nobody sees the window: it asks for no frames, which nothing would hold back.
+    is_occluded: bool,
     drag: Option<[f64; 2]>,
     pointer: [f64; 2],
 }
@@ -63,6 +65,7 @@ impl App {
             last_frame: Instant::now(),
             panel_due: None,
             modifiers: ModifiersState::default(),
+            is_occluded: false,
             drag: None,
             pointer: [0.0; 2],
             proxy,
@@ -319,6 +322,7 @@ impl ApplicationHandler<Wake> for App {
             WindowEvent::Resized(size) => graphics.resize((*size).into()),
             WindowEvent::RedrawRequested => self.draw(event_loop),
             WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers.state(),
+            WindowEvent::Occluded(is_occluded) => self.is_occluded = *is_occluded,
             // Keys that are let go elsewhere are not told.
             WindowEvent::Focused(false) => self.state.keys = Default::default(),
             _ => {}
@@ -344,11 +348,11 @@ impl ApplicationHandler<Wake> for App {
             return;
         };
         let is_due = self.panel_due.is_some_and(|due| due <= Instant::now());
-        if self.state.moves() || is_due {
+        if (self.state.moves() || is_due) && !self.is_occluded {
             graphics.window.request_redraw();
         }
         event_loop.set_control_flow(match self.panel_due {
-            Some(due) if !is_due => ControlFlow::WaitUntil(due),
+            Some(due) if !is_due && !self.is_occluded => ControlFlow::WaitUntil(due),
             _ => ControlFlow::Wait,
         });
     }
