@@ -251,6 +251,32 @@ fn a_dropped_photograph_becomes_the_photo_channel() {
 }
 
 #[test]
+fn a_pack_that_is_dropped_while_a_recipe_is_watched_is_never_written_to() {
+    let desktop = Desktop::new();
+    let (recipe, folder) = (desktop.file("r.toml"), desktop.file("pack"));
+    std::fs::write(&recipe, RECIPE).unwrap();
+    let words = [
+        folder.to_str().unwrap(),
+        "--watch",
+        recipe.to_str().unwrap(),
+    ];
+    let program = open(&desktop, &words);
+    let seed = |folder: &Path| Some(Pack::open(folder).ok()?.manifest().seed);
+    eventually("the pack is written", || seed(&folder).is_some());
+    let first = settled(&desktop);
+    let other = common::bake("other", &format!("seed = 5\n{RECIPE}"), None);
+    program.drop_file(&other);
+    eventually("the other pack is shown", || {
+        desktop.screen().sky_differs(&first)
+    });
+    std::fs::write(&recipe, format!("seed = 77\n{RECIPE}")).unwrap();
+    eventually("the recipe is baked into its own pack", || {
+        seed(&folder) == Some(77)
+    });
+    assert_eq!(seed(&other), Some(5));
+}
+
+#[test]
 fn without_a_display_or_an_adapter_it_says_what_to_do() {
     let mut command = view(&[pack().to_str().unwrap()]);
     command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");

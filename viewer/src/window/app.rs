@@ -38,6 +38,8 @@ pub struct App {
     proxy: EventLoopProxy<Wake>,
     baker: Baker,
     watched: Option<PathBuf>,
+    /// Where packs of the watched recipe are written to. A pack that was dropped is only looked at.
+    watched_pack: Option<PathBuf>,
     photo: Option<PathBuf>,
     size_px: [u32; 2],
     last_frame: Instant,
@@ -60,6 +62,7 @@ impl App {
             ui: panel::context(),
             baker: Baker::new(proxy.clone()),
             watched: args.watch.clone(),
+            watched_pack: args.watch.as_ref().and(args.pack.clone()),
             photo: None,
             size_px: args.window_size,
             last_frame: Instant::now(),
@@ -170,8 +173,7 @@ impl App {
         self.baker.begin(Job {
             recipe,
             photo: self.photo.clone(),
-            // Only what a person saved in the recipe goes over what is on the disk.
-            save_to: self.watched.as_ref().and(self.state.source.folder.clone()),
+            save_to: self.watched_pack.clone(),
         });
     }
 
