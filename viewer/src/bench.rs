@@ -133,7 +133,7 @@ fn subjects(
     scenes: Vec<Scene>,
 ) -> Result<Vec<(String, Subject)>, GpuError> {
     let skies = scenes.into_iter().map(|scene| {
-        let sky = new_sky(gpu, pack, Target::Srgb8)?;
+        let sky = new_sky(gpu, pack, Target::Srgb8.texture_format())?;
         Ok((scene.name(), Subject::Sky(Box::new(sky), Box::new(scene))))
     });
     let references = REFERENCES.into_iter().map(|(name, entry_point)| {

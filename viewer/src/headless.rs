@@ -57,7 +57,7 @@ impl<'a> Stage<'a> {
     pub fn new(gpu: &'a Gpu, pack: &Pack, target: Target) -> Result<Stage<'a>, GpuError> {
         Ok(Stage {
             gpu,
-            sky: new_sky(gpu, pack, target)?,
+            sky: new_sky(gpu, pack, target.texture_format())?,
             target,
             texture: None,
         })
@@ -122,13 +122,17 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// A sky that draws into a target of [`Gpu::target`].
+/// A sky that draws into a target of this format, without depth, one sample a pixel.
 ///
 /// # Errors
 /// [`GpuError::Sky`].
-pub fn new_sky(gpu: &Gpu, pack: &Pack, target: Target) -> Result<Sky, GpuError> {
+pub fn new_sky(
+    gpu: &Gpu,
+    pack: &Pack,
+    target_format: wgpu::TextureFormat,
+) -> Result<Sky, GpuError> {
     let config = SkyConfig {
-        target_format: target.texture_format(),
+        target_format,
         depth: None,
         sample_count: 1,
     };
@@ -142,20 +146,31 @@ pub fn draw_pass(
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
     draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
 ) {
+    let clear = wgpu::LoadOp::Clear(wgpu::Color::BLACK);
+    draw(&mut begin_pass(encoder, view, clear, timestamp_writes));
+}
+
+/// Begins a render pass into `view` alone.
+pub fn begin_pass<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    view: &wgpu::TextureView,
+    load: wgpu::LoadOp<wgpu::Color>,
+    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) -> wgpu::RenderPass<'a> {
     let colour = wgpu::RenderPassColorAttachment {
         view,
         depth_slice: None,
         resolve_target: None,
         ops: wgpu::Operations {
-            load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+            load,
             store: wgpu::StoreOp::Store,
         },
     };
-    draw(&mut encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         color_attachments: &[Some(colour)],
         timestamp_writes,
         ..Default::default()
-    }));
+    })
 }
 
 /// A texture of one 8-bit channel on the CPU.

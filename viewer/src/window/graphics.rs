@@ -6,8 +6,9 @@ use anyhow::{Result, anyhow};
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 use welkin_controls::Settings;
 use welkin_pack::Pack;
-use welkin_runtime::{Sky, SkyConfig};
+use welkin_runtime::Sky;
 use welkin_viewer::gpu::{Gpu, GpuError};
+use welkin_viewer::headless::{begin_pass, draw_pass, new_sky};
 use welkin_viewer::pass_times::{Part, PassTimes};
 use wgpu::CurrentSurfaceTexture::{Lost, Occluded, Outdated, Suboptimal, Success, Timeout};
 use winit::event_loop::{EventLoopProxy, OwnedDisplayHandle};
@@ -65,7 +66,7 @@ impl Graphics {
             Some(gpu.device.limits().max_texture_dimension_2d as usize),
         );
         Ok(Graphics {
-            sky: new_sky(&gpu, config.format, pack)?,
+            sky: new_sky(&gpu, pack, config.format)?,
             painter: Renderer::new(&gpu.device, config.format, RendererOptions::default()),
             times: PassTimes::new(&gpu),
             gpu,
@@ -81,7 +82,7 @@ impl Graphics {
     /// # Errors
     /// See [`GpuError`].
     pub fn show(&mut self, pack: &Pack, settings: &Settings) -> Result<(), GpuError> {
-        let mut sky = new_sky(&self.gpu, self.config.format, pack)?;
+        let mut sky = new_sky(&self.gpu, pack, self.config.format)?;
         sky.load(settings.params.method, settings.params.sky);
         self.sky = sky;
         Ok(())
@@ -173,10 +174,10 @@ impl Graphics {
             .painter
             .update_buffers(device, queue, &mut encoder, jobs, &panel.screen);
         let writes = |part| times.map(|(times, timed)| times.writes(timed, part));
-        let clear = wgpu::LoadOp::Clear(wgpu::Color::BLACK);
-        self.sky
-            .draw(&mut pass(&mut encoder, &view, clear, writes(Part::Sky)));
-        let over = pass(&mut encoder, &view, wgpu::LoadOp::Load, writes(Part::Panel));
+        draw_pass(&mut encoder, &view, writes(Part::Sky), |pass| {
+            self.sky.draw(pass);
+        });
+        let over = begin_pass(&mut encoder, &view, wgpu::LoadOp::Load, writes(Part::Panel));
         self.painter
             .render(&mut over.forget_lifetime(), jobs, &panel.screen);
         if let Some((times, timed)) = times {
@@ -196,37 +197,6 @@ fn no_surface(instance: &wgpu::Instance, reason: wgpu::CreateSurfaceError) -> an
         return GpuError::NoAdapter.into();
     }
     anyhow!(reason).context("the window takes no picture; choose another WGPU_BACKEND")
-}
-
-fn pass<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    view: &wgpu::TextureView,
-    load: wgpu::LoadOp<wgpu::Color>,
-    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
-) -> wgpu::RenderPass<'a> {
-    let colour = wgpu::RenderPassColorAttachment {
-        view,
-        depth_slice: None,
-        resolve_target: None,
-        ops: wgpu::Operations {
-            load,
-            store: wgpu::StoreOp::Store,
-        },
-    };
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        color_attachments: &[Some(colour)],
-        timestamp_writes,
-        ..Default::default()
-    })
-}
-
-fn new_sky(gpu: &Gpu, target_format: wgpu::TextureFormat, pack: &Pack) -> Result<Sky, GpuError> {
-    let config = SkyConfig {
-        target_format,
-        depth: None,
-        sample_count: 1,
-    };
-    Ok(Sky::new(&gpu.device, &gpu.queue, config, pack)?)
 }
 
 /// Eight bits that the target encodes, so that what is blended over the sky is blended as `welkin-view render` does it; each frame
