@@ -186,6 +186,8 @@ test('layers are added, changed and taken away', () => browser.visit({ search: '
   assert.equal(await rows.count(), 1);
   assert.equal(await page.isDisabled('[aria-label="Remove layer 1"]'), true);
   await page.click('text=Add a layer');
+  // The panel shows it with the next frame.
+  await rows.nth(1).waitFor();
   assert.equal(await rows.count(), 2);
   await rows.nth(1).locator('select').selectOption('cirrus');
   await page.waitForFunction(() => /cumulus:0.5:1,cirrus:0.5:/.test(new URLSearchParams(location.search).get('layers')));
