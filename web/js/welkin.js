@@ -2,14 +2,13 @@
 
 import init, { Engine, check as checkMap, controls as table } from './engine.js';
 import { asMap, fetchPack } from './files.js';
+import { fit } from './fit.js';
 
 export { bake } from './bake.js';
 export { fetchPack } from './files.js';
 
 /** The longest that a frame of the loop may count, in seconds: a hidden page does not leap when it is seen again. */
 const LONGEST_S = 0.25;
-/** More pixels than the eye tells apart cost time for nothing. */
-const MOST_PIXELS_A_PX = 2;
 
 let loaded = null;
 /** Loads the engine, once. */
@@ -195,11 +194,3 @@ const pairs = (list) => Array.from({ length: list.length / 2 }, (_, i) => [list[
 const isAddress = (source) => typeof source === 'string' || source instanceof URL;
 const placeOf = (source) => (isAddress(source) ? String(source).replace(/\/$/, '') : 'pack');
 const filesOf = async (source, onprogress) => (isAddress(source) ? fetchPack(source, onprogress) : asMap(source));
-
-/** Gives a canvas the pixels of its place. */
-function fit(canvas) {
-  const scale = Math.min(devicePixelRatio, MOST_PIXELS_A_PX);
-  const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((px) => Math.max(1, Math.round(px * scale)));
-  if (canvas.width !== width) canvas.width = width;
-  if (canvas.height !== height) canvas.height = height;
-}

@@ -1,9 +1,8 @@
 // The canvas and its sky: opened, given another backend or pack, and made anew when the browser takes the device away.
 
 import { el } from './dom.js';
+import { fit } from './fit.js';
 
-/** More pixels than the eye tells apart cost time for nothing. */
-const MOST_PIXELS_A_PX = 2;
 /** Losing the device more often than this in `SPAN_MS` is no accident. */
 const MOST_LOSSES = 3;
 const SPAN_MS = 60_000;
@@ -22,7 +21,7 @@ export function createStage(view, createSky, tell) {
     const fresh = el('canvas');
     fresh.style.visibility = 'hidden';
     view.append(fresh);
-    fit(fresh);
+    fit(fresh, view);
     let made;
     try {
       made = await createSky(fresh, next_files, {
@@ -56,16 +55,8 @@ export function createStage(view, createSky, tell) {
     }
   }
 
-  /** Gives the canvas the pixels of its place. */
-  function fit(of = canvas) {
-    const scale = Math.min(devicePixelRatio, MOST_PIXELS_A_PX);
-    const [width, height] = [view.clientWidth, view.clientHeight].map((px) => Math.max(1, Math.round(px * scale)));
-    if (of.width !== width) of.width = width;
-    if (of.height !== height) of.height = height;
-  }
-
   function draw() {
-    fit();
+    fit(canvas, view);
     sky.draw();
   }
 
