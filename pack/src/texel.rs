@@ -9,8 +9,8 @@ mod sprites;
 pub use layers::LayerTexel;
 pub use sprites::SpriteTexel;
 
-use crate::Format;
 use crate::texture::{encode, unorm8};
+use crate::{Format, Texture};
 
 /// A texel of the role `clouds`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -65,6 +65,21 @@ impl StarTexel {
 
     /// After this time every star is in the same state again, in seconds.
     pub const PERIOD_S: f64 = 64.0;
+
+    /// What intensity 1 stands for on each level of the role `stars`, in intensities of level 0: a texel of a level
+    /// has the light of all stars under it, divided by this. Without light it is 1.
+    pub fn level_units(stars: &Texture) -> Vec<f32> {
+        let light = |level: &Vec<u8>| -> u64 {
+            let intensities = level.iter().step_by(4);
+            intensities.map(|&byte| u64::from(byte)).sum()
+        };
+        let base = stars.levels.first().map_or(0, light);
+        let unit = |level| match light(level) {
+            0 => 1.0,
+            light => (base as f64 / light as f64) as f32,
+        };
+        stars.levels.iter().map(unit).collect()
+    }
 
     /// The nearest RGBA8 texel.
     pub fn encode(self) -> [u8; 4] {

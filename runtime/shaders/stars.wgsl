@@ -1,7 +1,8 @@
 // Stars: one texel is one star, drawn as a point of its own. Theory and CPU part: stars.rs.
 struct StarUniforms {
-    field: vec4f, // x: level; y: texels a side of that level; z: place in the period, 0..1; w: brightness
-    spread: vec4f, // x: 1 if light is spread over the pixel's own solid angle, 0 if over that of one in the middle
+    field: vec4f, // x: level of the records; y: texels a side of that level; z: place in the period, 0..1; w: brightness
+    spread: vec4f, // x: 1 if light is spread over the pixel's own solid angle, 0 if over that of one in the middle; y: 1 if the level above
+                   // that of the records tells where they are; z: how far a tent reaches, in radians
 }
 
 // The light of a star at this frame's time, from its four numbers.
@@ -17,11 +18,6 @@ fn turn_star(tile: vec2i, uv: vec2f) -> vec2f {
     return select(flipped, flipped.yx, star_tile_swaps(tile));
 }
 
-fn turn_star_back(tile: vec2i, uv: vec2f) -> vec2f {
-    let swapped = select(uv, uv.yx, star_tile_swaps(tile));
-    return select(swapped, 1.0 - swapped, (tile & vec2i(1)) == vec2i(1));
-}
-
 fn star_tile_swaps(tile: vec2i) -> bool {
     return (((tile.x ^ tile.y) >> 1u) & 1) == 1;
 }
@@ -32,23 +28,57 @@ fn star_spread(direction: vec3f) -> f32 {
     return mix(1.0, 1.0 / (narrowing * narrowing * narrowing), uniforms.stars.spread.x);
 }
 
-// Radiance of the star whose texel covers `dome`, which is in `direction`, at the pixel with centre `pixel`.
-fn star_radiance(dome: vec2f, direction: vec3f, pixel: vec2f, galaxy: f32) -> vec3f {
+// The texel of a cell: cells of a level cover the plane of the tiles, `side` of them a tile.
+fn star_texel(cell: vec2i, side: f32) -> vec2i {
+    let tile = vec2i(floor(vec2f(cell) / side));
+    let uv = turn_star(tile, (vec2f(cell) + 0.5) / side - vec2f(tile));
+    return vec2i(uv * side);
+}
+
+// What the star of a cell gives to the pixel with centre `pixel`, by its tent. A tent one pixel wide each way: over the pixels of a row
+// its weights add up to 1 wherever the star is between them, so a star that moves never changes its total light.
+fn star_light(cell: vec2i, pixel: vec2f) -> vec3f {
     let field = uniforms.stars.field;
-    let scaled = (dome + STAR_START) * (1.0 / STAR_TILE_SIDE);
-    let corner = floor(scaled);
-    let tile = vec2i(corner);
-    let uv = turn_star(tile, scaled - corner);
-    let texel = vec2i(min(uv * field.y, vec2f(field.y - 1.0)));
-    let star = textureLoad(stars_texture, texel, i32(field.x));
+    let star = textureLoad(stars_texture, star_texel(cell, field.y), i32(field.x));
     if star.r == 0.0 {
         return vec3f(0.0);
     }
-    let centre = corner + turn_star_back(tile, (vec2f(texel) + 0.5) / field.y);
-    let offset = abs(pixel_of(dome_to_direction(centre * STAR_TILE_SIDE - STAR_START)) - pixel);
-    // A tent one pixel wide each way: over the pixels of a row its weights add up to 1 wherever the
-    // star is between them, so a star that moves never changes its total light.
+    let centre = (vec2f(cell) + 0.5) * (STAR_TILE_SIDE / field.y) - STAR_START;
+    let offset = abs(pixel_of(dome_to_direction(centre)) - pixel);
     let tent = max(1.0 - offset, vec2f(0.0));
-    let light = star_intensity(star, field.z) * field.w * tent.x * tent.y * star_spread(direction);
-    return mix(STAR_WARM, STAR_COLD, star.a) * (light * (1.0 + STAR_GALAXY_BOOST * galaxy));
+    return mix(STAR_WARM, STAR_COLD, star.a) * (star_intensity(star, field.z) * tent.x * tent.y);
+}
+
+// The light of all stars whose tents may reach the pixel: a cell of the level above is empty if the four below it are.
+fn stars_around(dome: vec2f, direction: vec3f, pixel: vec2f) -> vec3f {
+    let side = 0.5 * uniforms.stars.field.y;
+    let level = i32(uniforms.stars.field.x) + 1;
+    // The projection widens angles across the direction to the zenith by the most.
+    let reach = uniforms.stars.spread.z * inverseSqrt(0.5 + 0.5 * max(direction.y, 0.0));
+    let low = vec2i(floor((dome + STAR_START - reach) * (side / STAR_TILE_SIDE)));
+    let high = vec2i(floor((dome + STAR_START + reach) * (side / STAR_TILE_SIDE)));
+    var light = vec3f(0.0);
+    for (var y = low.y; y <= high.y; y++) {
+        for (var x = low.x; x <= high.x; x++) {
+            let cell = vec2i(x, y);
+            if textureLoad(stars_texture, star_texel(cell, side), level).r > 0.0 {
+                for (var i = 0; i < 4; i++) {
+                    light += star_light(2 * cell + vec2i(i & 1, i >> 1u), pixel);
+                }
+            }
+        }
+    }
+    return light;
+}
+
+// Radiance of the stars around `dome`, which is in `direction`, at the pixel with centre `pixel`.
+fn star_radiance(dome: vec2f, direction: vec3f, pixel: vec2f, galaxy: f32) -> vec3f {
+    let field = uniforms.stars.field;
+    var light: vec3f;
+    if uniforms.stars.spread.y > 0.5 {
+        light = stars_around(dome, direction, pixel);
+    } else {
+        light = star_light(vec2i(floor((dome + STAR_START) * (field.y / STAR_TILE_SIDE))), pixel);
+    }
+    return light * (field.w * star_spread(direction) * (1.0 + STAR_GALAXY_BOOST * galaxy));
 }

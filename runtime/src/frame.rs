@@ -1,7 +1,7 @@
 //! A frame's uniforms: all that is computed once a frame, from pack, parameters, camera and seconds.
 
 use welkin_pack::field::Hour;
-use welkin_pack::{Image, Pack, Role, Texture};
+use welkin_pack::{Image, Pack, Role, StarTexel, Texture};
 
 use crate::clouds::CloudView;
 use crate::fbm_map::Octaves;
@@ -23,8 +23,10 @@ pub struct Facts {
     pub clouds_texels: u32,
     /// Means of photo, noise and detail.
     pub cloud_means: [f32; 3],
-    /// Texels a side and levels of the stars.
-    pub stars: (u32, usize),
+    /// Texels a side of the stars.
+    pub stars: u32,
+    /// What a step of each of their levels stands for: [`StarTexel::level_units`].
+    pub star_units: Vec<f32>,
     /// Texels a side and levels of the sun.
     pub sun: (u32, usize),
     /// Texels a side of the atlas of flares.
@@ -55,7 +57,8 @@ impl Facts {
             sky: texture(pack, Role::Sky)?.image(0, 0),
             clouds_texels: texture(pack, Role::Clouds)?.width,
             cloud_means: cloud_means(pack)?,
-            stars: side(texture(pack, Role::Stars)?),
+            stars: texture(pack, Role::Stars)?.width,
+            star_units: StarTexel::level_units(texture(pack, Role::Stars)?),
             sun: side(texture(pack, Role::Sun)?),
             flares: texture(pack, Role::Flares)?.width,
             skybox: pack.texture(Role::Skybox).map(side),
@@ -130,8 +133,8 @@ impl Facts {
             perez: perez::uniforms(&params.perez, params.sky, &light),
             sun: sun::uniforms(&shown, &rays, self.sun.0, self.sun.1, pixel, params.sun),
             stars: stars::uniforms(
-                self.stars.0,
-                self.stars.1,
+                self.stars,
+                &self.star_units,
                 pixel_rad,
                 night,
                 params.even_stars,

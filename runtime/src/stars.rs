@@ -9,16 +9,20 @@
 //! The paper samples the texture like a picture, which blends rates and phases of neighbours. Here one
 //! texel is read whole and decoded; the star is a point at the texel's centre, projected to the screen,
 //! and drawn as a tent one pixel wide each way. The tents of the pixels around it add up to one
-//! wherever it is, so that a star which moves over the screen neither shimmers nor changes its light. A
-//! tent fits into its texel where the texel is at least 2 sqrt(2) pixels wide: smaller ones are read
-//! from the next level, which keeps the light of the stars. Near the horizon the projection narrows
-//! texels by sqrt(1/2), and the tents of some stars lose their outermost corners there.
+//! wherever it is, so that a star which moves over the screen neither shimmers nor changes its light.
+//!
+//! A tent fits into its texel where the texel is at least 2 sqrt(2) pixels wide: then one texel is all that a pixel
+//! reads. Near the horizon the projection narrows texels by sqrt(1/2), and the tents of some stars lose their
+//! outermost corners there. On a coarser screen a pixel looks at every texel that its tent may reach, of the level
+//! above: that tells where there are stars at all, and those are read from the level below it. The records are those
+//! of level 0 down to 185 lines at a field of view of 60 degrees; beyond that, of stars whose light was added up.
 //!
 //! Away from the lens' axis, at an angle t to it, a pixel covers cos^3 t of the solid angle that one in the middle does. On a screen
 //! that is nobody's concern; a map of radiance divides by it ([`crate::SkyParams::even_stars`]).
 //!
 //! # Practice
-//! One texture read a pixel at night, the rest only where there is a star (about one pixel in 40).
+//! One texture read a pixel at night, the rest only where there is a star (about one pixel in 40). Where a texel is too
+//! narrow, about a dozen.
 
 use glam::Vec3;
 use welkin_pack::StarTexel;
@@ -41,33 +45,70 @@ const BRIGHTNESS: f32 = 1.6;
 /// The narrowest texel into which the tent of a star fits at any turn, in pixels: its diagonal.
 const MIN_TEXEL_PX: f32 = 2.0 * std::f32::consts::SQRT_2;
 
-/// The stars' share of the uniforms. `texels` is the side of level 0, `pixel_rad` width and height of a
-/// pixel in the middle of the screen, `even` is [`crate::SkyParams::even_stars`].
+/// The narrowest texel of the level that tells where there are stars, in pixels: a tent then reaches four of them each
+/// way at most, five next to the horizon.
+const MIN_GUIDE_PX: f32 = 1.25;
+
+/// Which level is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Levels {
+    /// That of the records.
+    records: u32,
+    /// Whether the level above it tells where they are; otherwise a pixel reads the one texel that it lies in.
+    guided: bool,
+}
+
+/// The stars' share of the uniforms. `texels` is the side of level 0, `units` are those of
+/// [`StarTexel::level_units`], `pixel_rad` width and height of a pixel in the middle of the screen, `even` is
+/// [`crate::SkyParams::even_stars`].
 pub fn uniforms(
     texels: u32,
-    levels: usize,
+    units: &[f32],
     pixel_rad: [f32; 2],
     night: f32,
     even: bool,
     seconds: f64,
 ) -> StarUniforms {
-    let level = level(texels, levels, pixel_rad);
-    let side = (texels >> level).max(1) as f32;
-    let texel_sr = (STAR_TILE_SIDE / side) * (STAR_TILE_SIDE / side);
+    let Levels { records, guided } = levels(texels, units.len(), pixel_rad);
+    let texel_sr = (STAR_TILE_SIDE / texels as f32) * (STAR_TILE_SIDE / texels as f32);
     let pixel_sr = pixel_rad[0] * pixel_rad[1];
-    let brightness = BRIGHTNESS * night * texel_sr / pixel_sr;
+    let unit = units.get(records as usize).copied().unwrap_or(1.0);
+    let brightness = BRIGHTNESS * night * unit * texel_sr / pixel_sr;
+    let number = |is: bool| f32::from(u8::from(is));
     StarUniforms {
-        field: [level as f32, side, period(seconds), brightness],
-        spread: [f32::from(u8::from(even)), 0.0, 0.0, 0.0],
+        field: [
+            records as f32,
+            (texels >> records).max(1) as f32,
+            period(seconds),
+            brightness,
+        ],
+        spread: [
+            number(even),
+            number(guided),
+            pixel_rad[0].hypot(pixel_rad[1]),
+            0.0,
+        ],
     }
 }
 
-/// The first level whose texels hold the tent of a star.
-fn level(texels: u32, levels: usize, pixel_rad: [f32; 2]) -> u32 {
-    let wanted = MIN_TEXEL_PX * pixel_rad[0].max(pixel_rad[1]);
-    let fits = |level: u32| STAR_TILE_SIDE / (texels >> level).max(1) as f32 >= wanted;
+fn levels(texels: u32, levels: usize, pixel_rad: [f32; 2]) -> Levels {
+    let texel_px = |level: u32| {
+        let side = (texels >> level).max(1) as f32;
+        STAR_TILE_SIDE / side / pixel_rad[0].max(pixel_rad[1])
+    };
     let last = levels.saturating_sub(1) as u32;
-    (0..last).find(|&level| fits(level)).unwrap_or(last)
+    if last == 0 || texel_px(0) >= MIN_TEXEL_PX {
+        return Levels {
+            records: 0,
+            guided: false,
+        };
+    }
+    let fits = |guide: u32| texel_px(guide) >= MIN_GUIDE_PX;
+    let guide = (1..last).find(|&guide| fits(guide)).unwrap_or(last);
+    Levels {
+        records: guide - 1,
+        guided: true,
+    }
 }
 
 /// Place in the flicker's period, 0..1: reduced in 64 bits, so that any time can be drawn.
@@ -82,14 +123,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_level_is_the_first_that_holds_the_tent() {
+    fn records_are_read_from_level_0_down_to_small_pictures() {
         let pixel = |texel_px: f32| [1.0 / (256.0 * texel_px); 2];
-        assert_eq!(level(256, 9, pixel(4.0)), 0);
-        assert_eq!(level(256, 9, pixel(2.84)), 0);
-        assert_eq!(level(256, 9, pixel(2.82)), 1);
-        assert_eq!(level(256, 9, pixel(1.0)), 2);
-        assert_eq!(level(256, 9, pixel(1e-6)), 8, "never beyond the last");
-        assert_eq!(level(256, 0, pixel(1e-6)), 0);
+        let at = |texel_px: f32| {
+            let Levels { records, guided } = levels(256, 9, pixel(texel_px));
+            (records, guided)
+        };
+        assert_eq!(at(4.0), (0, false));
+        assert_eq!(at(2.84), (0, false));
+        assert_eq!(at(2.82), (0, true));
+        assert_eq!(at(0.63), (0, true));
+        assert_eq!(at(0.62), (1, true));
+        assert_eq!(at(1e-6), (7, true), "never beyond the last");
+        for levels_of_one in [0, 1] {
+            assert!(!levels(256, levels_of_one, pixel(1e-6)).guided);
+        }
     }
 
     #[test]
@@ -101,12 +149,13 @@ mod tests {
 
     #[test]
     fn light_does_not_depend_on_the_level() {
-        // Level 0 at 4 pixels a texel, level 1 at 2: four times the area holds a quarter of the intensity.
-        let fine = uniforms(256, 9, [1e-3; 2], 1.0, false, 0.0).field;
-        let coarse = uniforms(256, 9, [1.5e-3; 2], 1.0, false, 0.0).field;
+        // A step of level 1 stands for three of level 0.
+        let units = [1.0, 3.0, 3.0];
+        let at = |pixel_rad: f32| uniforms(256, &units, [pixel_rad; 2], 1.0, false, 0.0).field;
+        let (fine, coarse) = (at(1e-3), at(8e-3));
         assert_eq!((fine[0], coarse[0]), (0.0, 1.0));
-        let per_pixel_area = |field: [f32; 4], pixel_rad: f32| field[3] * pixel_rad * pixel_rad;
-        let ratio = per_pixel_area(coarse, 1.5e-3) / per_pixel_area(fine, 1e-3);
-        assert!((ratio - 4.0).abs() < 1e-5);
+        let per_step = |field: [f32; 4], pixel_rad: f32| field[3] * pixel_rad * pixel_rad;
+        let ratio = per_step(coarse, 8e-3) / per_step(fine, 1e-3);
+        assert!((ratio - 3.0).abs() < 1e-5);
     }
 }

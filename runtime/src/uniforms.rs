@@ -83,9 +83,10 @@ pub struct SunUniforms {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct StarUniforms {
-    /// x: level; y: texels a side of that level; z: place in the flicker's period, 0..1; w: brightness.
+    /// x: level of the records; y: texels a side of that level; z: place in the flicker's period, 0..1; w: brightness.
     pub field: [f32; 4],
-    /// x: 1 if light is spread over the pixel's own solid angle, 0 if over that of one in the middle; yzw: not used.
+    /// x: 1 if light is spread over the pixel's own solid angle, 0 if over that of one in the middle; y: 1 if the level above that of the
+    /// records tells where they are, 0 if a pixel reads one texel alone; z: how far a tent reaches, in radians; w: not used.
     pub spread: [f32; 4],
 }
 

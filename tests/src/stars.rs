@@ -1,14 +1,14 @@
 //! Twin of stars.wgsl: by the pack's own mapping and its own decoding.
 
-use glam::{Vec2, Vec3};
-use welkin_pack::mapping::{self, StarPlace};
+use glam::{IVec2, Vec2, Vec3};
+use welkin_pack::mapping::{self, STAR_TILE_SIDE, STAR_TILE_START, StarPlace};
 use welkin_pack::{Pack, Role, StarTexel};
 use welkin_runtime::stars::{COLD, GALAXY_BOOST, WARM};
 use welkin_runtime::uniforms::Uniforms;
 
 use crate::camera;
 
-/// Radiance of the star whose texel covers `direction`, at the pixel with centre `pixel`.
+/// Radiance of the stars around `direction`, at the pixel with centre `pixel`.
 pub fn radiance(
     uniforms: &Uniforms,
     pack: &Pack,
@@ -17,26 +17,48 @@ pub fn radiance(
     seconds: f64,
     galaxy: f32,
 ) -> Vec3 {
-    let [level, side, _, brightness] = uniforms.stars.field;
-    let place = mapping::dome_to_star(mapping::direction_to_dome(direction.to_array()));
+    let [_, side, _, brightness] = uniforms.stars.field;
+    let [even, guided, reach, _] = uniforms.stars.spread;
+    let dome = Vec2::from(mapping::direction_to_dome(direction.to_array()));
+    let cells = if guided == 1.0 {
+        // Every cell that the tent may reach, with or without a guide: a square around the pixel.
+        let reach = Vec2::splat(reach * 2.0);
+        let [low, high] = [dome - reach, dome + reach].map(|p| cell_of(p, side));
+        (low.y..=high.y)
+            .flat_map(|y| (low.x..=high.x).map(move |x| IVec2::new(x, y)))
+            .collect()
+    } else {
+        vec![cell_of(dome, side)]
+    };
+    let light: Vec3 = cells
+        .into_iter()
+        .map(|cell| light(uniforms, pack, cell, pixel, seconds))
+        .sum();
+    let narrowing = direction.dot(crate::xyz(uniforms.camera.clip_w));
+    let spread = 1.0 + even * (narrowing.powi(-3) - 1.0);
+    light * (brightness * spread * (1.0 + GALAXY_BOOST * galaxy))
+}
+
+/// The cell of a level with `side` texels a side that a point of the dome lies in.
+fn cell_of(dome: Vec2, side: f32) -> IVec2 {
+    ((dome + Vec2::from(STAR_TILE_START)) / STAR_TILE_SIDE * side)
+        .floor()
+        .as_ivec2()
+}
+
+/// What the star of a cell gives to a pixel.
+fn light(uniforms: &Uniforms, pack: &Pack, cell: IVec2, pixel: Vec2, seconds: f64) -> Vec3 {
+    let [level, side, ..] = uniforms.stars.field;
+    let centre = (cell.as_vec2() + 0.5) / side * STAR_TILE_SIDE - Vec2::from(STAR_TILE_START);
+    let place = mapping::dome_to_star(centre.to_array());
     let texel = place
         .uv
         .map(|c| ((c * side) as usize).min(side as usize - 1));
     let star = star(pack, level as usize, texel, side as usize);
-    if star.intensity == 0.0 {
-        return Vec3::ZERO;
-    }
-    let centre = texel.map(|t| (t as f32 + 0.5) / side);
-    let towards = direction_of(StarPlace {
-        tile: place.tile,
-        uv: centre,
-    });
+    let towards = Vec3::from(mapping::dome_to_direction(centre.to_array()));
     let offset = (camera::pixel_of(&uniforms.camera, towards) - pixel).abs();
     let tent = (1.0 - offset).max(Vec2::ZERO);
-    let narrowing = direction.dot(crate::xyz(uniforms.camera.clip_w));
-    let spread = 1.0 + uniforms.stars.spread[0] * (narrowing.powi(-3) - 1.0);
-    let light = star.intensity_at(seconds) * brightness * tent.x * tent.y * spread;
-    WARM.lerp(COLD, star.phase) * (light * (1.0 + GALAXY_BOOST * galaxy))
+    WARM.lerp(COLD, star.phase) * (star.intensity_at(seconds) * tent.x * tent.y)
 }
 
 /// Direction of a place in the star texture; it may lie below the horizon.

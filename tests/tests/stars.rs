@@ -86,8 +86,8 @@ fn total_light_is_that_of_the_records_during_a_slow_pan() {
     let pack = pack::stars_alone();
     let facts = Facts::new(&pack).expect("the pack has every role");
     let mut sky = gpu::sky(&pack, FORMAT);
-    // Fine enough for level 0 (3.1 pixels a texel) and so coarse that level 2 is read.
-    for (size, fov) in [([640, 480], 0.6), ([320, 240], 1.0)] {
+    // Fine enough to read one texel (3.1 pixels a texel), and so coarse that stars are added up on level 2.
+    for (size, fov) in [([640, 480], 0.6), ([320, 240], 1.0), ([128, 96], 1.5)] {
         for elevation in [80.0_f32, 40.0, 14.0] {
             let mut ratios = Vec::new();
             for step in 0..=16 {
@@ -169,8 +169,8 @@ fn density_over_elevation_is_even() {
     for (azimuth, elevation) in faces {
         let view = Camera::looking(azimuth, elevation, quarter, size);
         let uniforms = facts.uniforms(&night(), &view, 0.0, 0.0);
-        let one = f64::from(uniforms.stars.field[3] * WARM.y)
-            * 0.25_f64.powi(uniforms.stars.field[0] as i32);
+        assert_eq!(uniforms.stars.field[0], 0.0, "the records are read");
+        let one = f64::from(uniforms.stars.field[3] * WARM.y);
         for (index, texel) in gpu::render(&mut sky, FORMAT, &night(), &view, 0.0)
             .iter()
             .enumerate()
@@ -296,6 +296,81 @@ fn a_star_flickers_as_its_record_says_at_any_time() {
                 "{star:?} at {seconds} s: {light}, expected {expected}"
             );
         }
+    }
+}
+
+/// Of the stars of level 0 that stand alone on a picture: how many there are, and how many of them shine as their records say
+/// at all of these times.
+fn lone_stars(pack: &Pack, size: [u32; 2], fov_deg: f32) -> [usize; 2] {
+    const REACH: i64 = 2;
+    let facts = Facts::new(pack).expect("the pack has every role");
+    let mut sky = gpu::sky(pack, FORMAT);
+    let view = Camera::looking(0.8, 0.7, fov_deg.to_radians(), size);
+    let uniforms = facts.uniforms(&night(), &view, 0.0, 0.0);
+    let stars: Vec<(Vec3, StarTexel, Vec2)> = all_stars(pack, 0)
+        .into_iter()
+        .filter(|(d, _)| d.dot(view.rays().forward) > 0.0)
+        .map(|(d, star)| (d, star, camera::pixel_of(&uniforms.camera, d)))
+        .filter(|(_, _, pixel)| pixel.min_element() > -8.0)
+        .filter(|(_, _, pixel)| pixel.x < size[0] as f32 + 8.0 && pixel.y < size[1] as f32 + 8.0)
+        .collect();
+    let is_alone = |pixel: Vec2| {
+        let near = stars
+            .iter()
+            .filter(|(_, _, p)| (*p - pixel).abs().max_element() < 5.0);
+        near.count() == 1
+    };
+    let [width, height] = size.map(i64::from);
+    let inside = |pixel: Vec2| {
+        let [x, y] = [pixel.x, pixel.y].map(|c| c as i64);
+        (REACH..width - REACH).contains(&x) && (REACH..height - REACH).contains(&y)
+    };
+    let lone: Vec<_> = stars
+        .iter()
+        .filter(|(d, _, pixel)| d.y > 0.05 && inside(*pixel) && is_alone(*pixel))
+        .collect();
+    let mut good = vec![true; lone.len()];
+    for seconds in [0.0, 0.31, 7.77] {
+        let texels = gpu::render(&mut sky, FORMAT, &night(), &view, seconds);
+        for ((direction, star, pixel), good) in lone.iter().zip(&mut good) {
+            let [x, y] = [pixel.x, pixel.y].map(|c| c as i64);
+            let around = (-REACH..=REACH).flat_map(|j| (-REACH..=REACH).map(move |i| (i, j)));
+            let light: f64 = around
+                .map(|(i, j)| f64::from(texels[((y + j) * width + x + i) as usize][1]))
+                .sum();
+            let steady = StarTexel {
+                variance: 0.0,
+                ..*star
+            };
+            let mean = green(&uniforms, steady, *direction, seconds);
+            let expected = green(&uniforms, *star, *direction, seconds);
+            *good &= (light - expected).abs() < 0.1 * mean;
+        }
+    }
+    [lone.len(), good.into_iter().filter(|good| *good).count()]
+}
+
+#[test]
+fn lone_stars_follow_their_records_at_every_size() {
+    let pack = pack::stars_alone();
+    let small = [
+        [640, 360],
+        [800, 600],
+        [1280, 720],
+        [1280, 800],
+        [1920, 1080],
+    ];
+    let views = small
+        .into_iter()
+        .flat_map(|size| [40.0, 60.0, 90.0].map(|fov| (size, fov)));
+    for (size, fov_deg) in views.chain([([3840, 2160], 65.0)]) {
+        let [lone, good] = lone_stars(&pack, size, fov_deg);
+        println!("{size:?}, {fov_deg} degrees: {good} of {lone}");
+        assert!(lone > 100, "{size:?}: {lone} stars stand alone");
+        assert!(
+            good as f64 >= 0.95 * lone as f64,
+            "{size:?}, {fov_deg} degrees: {good} of {lone}"
+        );
     }
 }
 
