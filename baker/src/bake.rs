@@ -68,6 +68,8 @@ pub fn bake_from(
         recipe: resolved.recipe.clone(),
         inputs: files.inputs(),
         noon_elevation_rad: resolved.sun.noon_elevation_rad,
+        noise: resolved.clouds.noise.entry(),
+        detail: resolved.clouds.detail.entry(),
     };
     let mut pack = Pack::build(info, sources)?;
     if let Some(settings) = &resolved.field {

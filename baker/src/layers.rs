@@ -41,15 +41,12 @@ pub(crate) fn images(settings: &LayersSettings, seed: u64) -> Vec<Image> {
 
 /// One channel, 0..1, both reached.
 fn density(kind: LayerKind, settings: &LayerSettings, size: u32, stream: &mut Stream) -> Image {
-    let (mut density, mean) = match kind {
-        LayerKind::Stratocumulus => (
-            stratocumulus::field(settings, size, stream),
-            stratocumulus::MEAN,
-        ),
-        LayerKind::Cumulus => (cumulus::field(settings, size, stream), cumulus::MEAN),
-        LayerKind::Cirrus => (cirrus::field(settings, size, stream), cirrus::MEAN),
+    let mut density = match kind {
+        LayerKind::Stratocumulus => stratocumulus::field(settings, size, stream),
+        LayerKind::Cumulus => cumulus::field(settings, size, stream),
+        LayerKind::Cirrus => cirrus::field(settings, size, stream),
     };
-    filter::calibrate(&mut density, 0.0, OUTLIER, mean);
+    filter::calibrate(&mut density, 0.0, OUTLIER, kind.mean_density());
     density
 }
 

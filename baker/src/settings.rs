@@ -3,6 +3,7 @@
 mod field;
 
 use welkin_pack::Format;
+use welkin_pack::manifest::FractalNoise;
 
 pub use field::{
     BoxSettings, CloudLayerSettings, FieldBound, FieldSettings, ModelSettings, ModelSource,
@@ -80,6 +81,24 @@ pub struct FractalSettings {
     pub gain: f32,
     /// Mean that the channel is calibrated to.
     pub mean: f32,
+}
+
+impl FractalSettings {
+    /// The same as a manifest tells it.
+    pub fn entry(&self) -> FractalNoise {
+        let &FractalSettings {
+            cells,
+            octaves,
+            gain,
+            mean,
+        } = self;
+        FractalNoise {
+            cells,
+            octaves,
+            gain,
+            mean,
+        }
+    }
 }
 
 /// The sunset gradient.

@@ -27,7 +27,6 @@ mod table;
 use rayon::prelude::*;
 use welkin_pack::{Image, mapping};
 
-use crate::filter::smoothstep;
 use crate::settings::SkySettings;
 use atmosphere::{Atmosphere, Line};
 use spectrum::Colour;
@@ -53,9 +52,6 @@ const REFERENCE_SIN: f32 = 0.866_025_4;
 
 /// Airglow at the zenith and on the horizon, in stored units: dark blue, as a night looks to the eye.
 const AIRGLOW: [[f32; 3]; 2] = [[0.0038, 0.0066, 0.0150], [0.0066, 0.0100, 0.0190]];
-
-/// Sines of the sun's elevation between which stars appear: -5 degrees (the first stars) and -16 degrees.
-const NIGHT_SINES: [f32; 2] = [-0.0872, -0.2756];
 
 /// Four channels: linear BT.709 red, green, blue, and the share of the night sky that shows.
 pub(crate) fn image(settings: &SkySettings, noon_elevation_rad: f32) -> Image {
@@ -114,7 +110,7 @@ impl Day {
     fn adapted(&self, column: &[[f32; 3]], sun_sin: f32) -> Vec<[f32; 4]> {
         let mean = mean_luminance(column).max(DARKEST * self.reference);
         let scale = NOON_LUMINANCE * libm::powf(mean / self.reference, ADAPTATION);
-        let night = smoothstep(NIGHT_SINES[0], NIGHT_SINES[1], sun_sin);
+        let night = mapping::night_share(sun_sin);
         let last = (column.len() - 1) as f32;
         let texel = |(y, light): (usize, &[f32; 3])| {
             let low = 1.0 - y as f32 / last;

@@ -5,12 +5,13 @@ use rayon::prelude::*;
 
 use crate::field::glb;
 use crate::manifest::{
-    Channel, FieldEntry, Input, KIND, MANIFEST_FILE, Sampler, TextureEntry, VERSION,
+    Channel, FieldEntry, FractalNoise, Input, KIND, MANIFEST_FILE, Sampler, TextureEntry, VERSION,
 };
+use crate::role::ChannelSpec;
 use crate::{Field, Format, Image, Manifest, Pack, PackError, Role, Texture, ktx, mip};
 
 /// What a pack is built from, beside its images.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PackInfo {
     /// Name of the pack.
     pub name: String,
@@ -24,6 +25,20 @@ pub struct PackInfo {
     pub inputs: Vec<Input>,
     /// Elevation of the sun at noon, in radians.
     pub noon_elevation_rad: f32,
+    /// What the noise of the clouds is made of.
+    pub noise: FractalNoise,
+    /// What their detail is made of.
+    pub detail: FractalNoise,
+}
+
+impl PackInfo {
+    fn fractal(&self, channel: &ChannelSpec) -> Option<FractalNoise> {
+        match channel.name {
+            "noise" if channel.is_fractal => Some(self.noise),
+            "detail" if channel.is_fractal => Some(self.detail),
+            _ => None,
+        }
+    }
 }
 
 /// Level 0 of one texture, before quantisation.
@@ -74,14 +89,15 @@ impl Pack {
         Pack::from_textures(info, textures.collect())
     }
 
-    /// Builds a pack from quantised textures, in the order of their roles.
-    pub(crate) fn from_textures(
-        info: PackInfo,
-        sources: Vec<(Role, Texture)>,
-    ) -> Result<Pack, PackError> {
+    /// Builds a pack from textures as they are stored, in the order of their roles. Whether they are what they claim to
+    /// be is not looked at: that is for [`crate::check`].
+    ///
+    /// # Errors
+    /// [`PackError::Value`] if a texture cannot be written and read back.
+    pub fn from_textures(info: PackInfo, sources: Vec<(Role, Texture)>) -> Result<Pack, PackError> {
         let written: Vec<_> = sources
             .par_iter()
-            .map(|(role, texture)| write_texture(*role, texture, &info.baker))
+            .map(|(role, texture)| write_texture(*role, texture, &info))
             .collect();
         let mut entries = Vec::new();
         let mut files = Vec::new();
@@ -113,7 +129,10 @@ impl Pack {
     }
 
     /// The same with a field that is not looked at.
-    pub(crate) fn with_any_field(mut self, field: Field) -> Result<Pack, PackError> {
+    ///
+    /// # Errors
+    /// [`PackError::Value`] if it cannot be written and read back.
+    pub fn with_any_field(mut self, field: Field) -> Result<Pack, PackError> {
         let bytes = glb::encode(FieldEntry::FILE, &field, &self.manifest.baker)?;
         if glb::decode(FieldEntry::FILE, &bytes)? != field {
             return Err(PackError::value(
@@ -146,10 +165,10 @@ impl Pack {
 fn write_texture(
     role: Role,
     texture: &Texture,
-    baker: &str,
+    info: &PackInfo,
 ) -> Result<(TextureEntry, Vec<u8>), PackError> {
     let file = role.file();
-    let bytes = ktx::encode(&file, texture, baker)?;
+    let bytes = ktx::encode(&file, texture, &info.baker)?;
     if ktx::decode(&file, &bytes)? != *texture {
         return Err(PackError::value(
             &file,
@@ -158,7 +177,7 @@ fn write_texture(
             "the same after reading back",
         ));
     }
-    Ok((entry(role, &file, texture, &bytes), bytes))
+    Ok((entry(role, &file, texture, &bytes, info), bytes))
 }
 
 fn manifest(info: PackInfo, textures: Vec<TextureEntry>) -> Manifest {
@@ -242,10 +261,10 @@ fn quantise(source: Source) -> Texture {
     }
 }
 
-fn entry(role: Role, file: &str, texture: &Texture, bytes: &[u8]) -> TextureEntry {
+fn entry(role: Role, file: &str, texture: &Texture, bytes: &[u8], info: &PackInfo) -> TextureEntry {
     let spec = role.spec();
     let image = texture.stacked(0);
-    let channel = |(index, spec): (usize, &crate::role::ChannelSpec)| {
+    let channel = |(index, spec): (usize, &ChannelSpec)| {
         let (mean, spread) = image.mean_and_spread(index);
         Channel {
             name: spec.name.to_string(),
@@ -254,6 +273,7 @@ fn entry(role: Role, file: &str, texture: &Texture, bytes: &[u8]) -> TextureEntr
             range: spec.range,
             mean,
             spread,
+            fractal: info.fractal(spec),
         }
     };
     TextureEntry {

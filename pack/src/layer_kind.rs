@@ -30,6 +30,15 @@ impl LayerKind {
         }
     }
 
+    /// The mean density that its layer is brought to.
+    pub const fn mean_density(self) -> f32 {
+        match self {
+            LayerKind::Stratocumulus => 0.5,
+            LayerKind::Cumulus => 0.4,
+            LayerKind::Cirrus => 0.42,
+        }
+    }
+
     /// The kind of a name; the inverse of [`LayerKind::name`].
     pub fn from_name(name: &str) -> Option<LayerKind> {
         LayerKind::ALL.into_iter().find(|kind| kind.name() == name)

@@ -5,7 +5,7 @@ mod field;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::role::{Filter, Wrap};
+use crate::role::{ChannelSpec, Filter, Wrap};
 use crate::{Format, PackError, Role, Shape, Texture};
 
 pub use field::FieldEntry;
@@ -17,7 +17,7 @@ pub const MANIFEST_FILE: &str = "pack.json";
 pub const KIND: &str = "welkin-pack";
 
 /// The version of the pack format that this crate reads and writes.
-pub const VERSION: u64 = 4;
+pub const VERSION: u64 = 5;
 
 /// A pack's manifest. docs/pack-format.md describes every key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -117,6 +117,23 @@ pub struct Channel {
     pub mean: f32,
     /// Standard deviation of the stored values of level 0.
     pub spread: f32,
+    /// What it was made of, if it is fractal noise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fractal: Option<FractalNoise>,
+}
+
+/// Octaves of gradient noise that tile, brought to a mean by a monotone curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FractalNoise {
+    /// Lattice cells of the first octave across the tile.
+    pub cells: u32,
+    /// Octaves; each has twice the cells of the one before. Those of cells under six texels are left out.
+    pub octaves: u32,
+    /// Amplitude of an octave as a share of the one before, 0..1.
+    pub gain: f32,
+    /// The mean that the channel was brought to, 0..1.
+    pub mean: f32,
 }
 
 impl Manifest {
@@ -164,6 +181,11 @@ impl Manifest {
 
     /// Verifies what the manifest says against what its roles ask. `file` names it in errors.
     pub(crate) fn verify(&self, file: &str) -> Result<(), PackError> {
+        let noon = self.noon_elevation_rad;
+        if !(noon > 0.0 && noon <= std::f32::consts::FRAC_PI_2) {
+            let expected = "above 0 and up to pi/2";
+            return Err(PackError::value(file, "noon_elevation_rad", noon, expected));
+        }
         for (index, entry) in self.textures.iter().enumerate() {
             if self.textures[..index].iter().any(|e| e.role >= entry.role) {
                 let key = format!("textures[{index}].role");
@@ -184,6 +206,46 @@ impl Manifest {
     /// The entry of a role.
     pub fn texture(&self, role: Role) -> Option<&TextureEntry> {
         self.textures.iter().find(|t| t.role == role)
+    }
+}
+
+impl Channel {
+    /// Verifies what it says against what its role asks; `at` is its key in the manifest.
+    fn verify(&self, file: &str, at: &str, spec: &ChannelSpec) -> Result<(), PackError> {
+        let range = |[low, high]: [f32; 2]| format!("{low} to {high}");
+        let pairs = [
+            ("meaning", self.meaning.clone(), spec.meaning.to_string()),
+            ("unit", self.unit.clone(), spec.unit.to_string()),
+            ("range", range(self.range), range(spec.range)),
+        ];
+        for (key, found, expected) in pairs {
+            if found != expected {
+                return Err(PackError::value(
+                    file,
+                    &format!("{at}.{key}"),
+                    found,
+                    expected,
+                ));
+            }
+        }
+        let is_sound = |noise: &FractalNoise| {
+            let shares = [noise.gain, noise.mean];
+            noise.cells > 0
+                && noise.octaves > 0
+                && shares.iter().all(|share| (0.0..=1.0).contains(share))
+        };
+        let (found, expected) = match (&self.fractal, spec.is_fractal) {
+            (None, false) => return Ok(()),
+            (Some(noise), true) if is_sound(noise) => return Ok(()),
+            (Some(noise), true) => (
+                format!("{noise:?}"),
+                "a cell and an octave or more, gain and mean from 0 to 1",
+            ),
+            (None, true) => ("none".to_string(), "the octaves that it was made of"),
+            (Some(_), false) => ("octaves".to_string(), "none, as it is no fractal noise"),
+        };
+        let key = format!("{at}.fractal");
+        Err(PackError::value(file, &key, found, expected))
     }
 }
 
@@ -221,12 +283,21 @@ impl TextureEntry {
         if self.levels as usize != levels {
             return bad("levels", self.levels.to_string(), levels.to_string());
         }
+        let sampler = |wrap: Wrap, filter: Filter| format!("{wrap:?}, {filter:?}").to_lowercase();
+        let expected = sampler(spec.wrap, spec.filter);
+        let found = sampler(self.sampler.wrap, self.sampler.filter);
+        if found != expected {
+            return bad("sampler", found, expected);
+        }
         let channels: Vec<&str> = self.channels.iter().map(|c| c.name.as_str()).collect();
         let expected: Vec<&str> = spec.channels.iter().map(|c| c.name).collect();
         if channels != expected {
             return bad("channels", channels.join(", "), expected.join(", "));
         }
-        Ok(())
+        let mut channels = self.channels.iter().zip(spec.channels).enumerate();
+        channels.try_for_each(|(i, (channel, spec))| {
+            channel.verify(file, &format!("textures[{index}].channels[{i}]"), spec)
+        })
     }
 
     /// Compares a file's bytes with this entry.

@@ -162,6 +162,17 @@ pub fn sun_direction(time: f32, noon_elevation_rad: f32) -> [f32; 3] {
     ]
 }
 
+/// Sines of the sun's elevation between which stars appear: -5 degrees (the first stars) and -16 degrees.
+pub const NIGHT_SINES: [f32; 2] = [-0.0872, -0.2756];
+
+/// Share of the night sky that shows through, 0..1, from the sine of the sun's elevation: a smooth step between
+/// [`NIGHT_SINES`].
+pub fn night_share(sun_sin: f32) -> f32 {
+    let [first, last] = NIGHT_SINES;
+    let t = ((sun_sin - first) / (last - first)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;

@@ -91,6 +91,8 @@ pub struct ChannelSpec {
     pub unit: &'static str,
     /// Physical values of stored 0 and stored 1.
     pub range: [f32; 2],
+    /// Whether it is fractal noise, of which a manifest tells the octaves.
+    pub is_fractal: bool,
 }
 
 /// What a role asks of its texture.

@@ -1,8 +1,14 @@
 //! A small pack that breaks no rule, for tests to break.
 
-use crate::mapping::{FBM_STEPS_A_TILE, cube_to_direction, galaxy_uv_to_direction};
+use crate::manifest::FractalNoise;
+use crate::mapping::{
+    FBM_STEPS_A_TILE, cube_to_direction, galaxy_uv_to_direction, night_share, sun_direction,
+};
 use crate::test_field::field;
-use crate::{Format, Image, Pack, PackInfo, Role, SheetCell, SheetKind, Source, StarTexel};
+use crate::{
+    FlareCell, Format, Image, LayerKind, Pack, PackInfo, Role, SheetCell, SheetKind, Source,
+    StarTexel,
+};
 
 /// A stream of numbers in 0..1: a 64-bit linear congruential generator (D. E. Knuth, MMIX), upper bits.
 pub(crate) struct Stream(u64);
@@ -32,7 +38,24 @@ pub(crate) fn info() -> PackInfo {
         baker: "welkin-test 0".to_string(),
         recipe: "name = \"test\"\n".to_string(),
         inputs: Vec::new(),
-        noon_elevation_rad: 1.0,
+        noon_elevation_rad: NOON_RAD,
+        noise: waves_as_noise(NOISE_MEAN),
+        detail: waves_as_noise(DETAIL_MEAN),
+    }
+}
+
+const NOON_RAD: f32 = 1.0;
+
+const NOISE_MEAN: f32 = 0.26;
+const DETAIL_MEAN: f32 = 0.5;
+
+/// Waves of wave numbers about 2^1.5, as the noise that has its energy there.
+fn waves_as_noise(mean: f32) -> FractalNoise {
+    FractalNoise {
+        cells: 7,
+        octaves: 1,
+        gain: 0.5,
+        mean,
     }
 }
 
@@ -74,10 +97,15 @@ pub(crate) fn write(pack: &Pack, folder: &std::path::Path) {
 
 pub(crate) fn clouds(size: u32) -> Image {
     let mut image = Image::new(size, size, 4);
-    for (channel, power) in [(0, 2.6), (1, 1.8), (2, 1.0)] {
-        let field = waves(size, channel as u64);
+    let channels = [
+        (0, 0.06, 0.16),
+        (1, 0.004, NOISE_MEAN),
+        (2, 0.004, DETAIL_MEAN),
+    ];
+    for (channel, clear, mean) in channels {
+        let field = with_mean(waves(size, channel as u64), clear, mean);
         for (texel, value) in image.texels.chunks_exact_mut(4).zip(field) {
-            texel[channel] = libm::powf(value, power);
+            texel[channel] = value;
         }
     }
     for y in 0..size {
@@ -87,6 +115,34 @@ pub(crate) fn clouds(size: u32) -> Image {
         }
     }
     image
+}
+
+/// Two waves across each other: four wave vectors.
+pub(crate) fn few_waves(size: usize) -> Vec<f32> {
+    let wave = |i: usize, n: f32| libm::cosf(std::f32::consts::TAU * n * i as f32 / size as f32);
+    let at = |i: usize| 0.5 + 0.25 * (wave(i % size, 3.0) + wave(i / size, 2.0));
+    (0..size * size).map(at).collect()
+}
+
+/// A field with a share of it clear, its peak at 1, and raised to the power that gives it a mean.
+pub(crate) fn with_mean(mut field: Vec<f32>, clear: f32, mean: f32) -> Vec<f32> {
+    let mut sorted = field.clone();
+    sorted.sort_by(f32::total_cmp);
+    let from = sorted[(clear * field.len() as f32) as usize];
+    let bent = |value: f32, power: f32| libm::powf(((value - from) / (1.0 - from)).max(0.0), power);
+    let mean_of =
+        |power: f32| field.iter().map(|v| bent(*v, power)).sum::<f32>() / field.len() as f32;
+    let (mut low, mut high) = (0.1, 10.0);
+    for _ in 0..30 {
+        let middle = 0.5 * (low + high);
+        if mean_of(middle) > mean {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    field.iter_mut().for_each(|v| *v = bent(*v, low));
+    field
 }
 
 /// A sum of waves that fit into the tile, from 0 to 1.
@@ -120,10 +176,10 @@ pub(crate) fn stars(size: u32, count: usize) -> Image {
     let mut stream = Stream::new(11);
     for _ in 0..count {
         let (x, y) = (stream.below(size), stream.below(size));
-        let intensity = 0.05 + 0.6 * stream.unit();
+        let intensity = 0.05 + 0.71 * stream.unit();
         let star = StarTexel {
             intensity,
-            rate: 0.5,
+            rate: libm::floorf(12.8 + 240.0 * stream.unit()) / 255.0,
             variance: intensity * 0.3,
             phase: stream.unit() * 0.998,
         };
@@ -151,8 +207,9 @@ fn sky(width: u32, height: u32) -> Image {
     let mut image = Image::new(width, height, 4);
     for y in 0..height {
         for x in 0..width {
-            let turn = std::f32::consts::TAU * x as f32 / width as f32;
-            let half = 0.5 - 0.5 * libm::cosf(turn);
+            // The evening is as the morning, to the bit.
+            let time = x.min(width - x) as f32 / width as f32;
+            let half = 0.5 - 0.5 * libm::cosf(std::f32::consts::TAU * time);
             let day = half * half;
             let low = 1.0 - y as f32 / height as f32;
             let light = 0.01 + day * (0.4 + 0.5 * low);
@@ -160,7 +217,7 @@ fn sky(width: u32, height: u32) -> Image {
                 light * 0.7,
                 light * 0.8,
                 light,
-                (1.0 - 2.0 * day).max(0.0),
+                night_share(sun_direction(x as f32 / width as f32, NOON_RAD)[1]),
             ]);
         }
     }
@@ -237,19 +294,30 @@ pub(crate) fn fbm() -> Vec<Image> {
 
 fn flares(size: u32) -> Image {
     let mut image = Image::new(size, size, 1);
-    let cell = size / 2;
-    for y in 0..size {
-        for x in 0..size {
-            let unit = |i: u32| ((i % cell) as f32 + 0.5) / cell as f32 * 2.0 - 1.0;
-            let radius = libm::sqrtf(unit(x) * unit(x) + unit(y) * unit(y));
-            image.texel_mut(x, y)[0] = ((0.8 - radius) / 0.2).clamp(0.0, 1.0);
+    let cell = size / FlareCell::A_SIDE;
+    for part in FlareCell::ALL {
+        let [left, top] = part.place().map(|i| i * cell);
+        for (x, y) in (0..cell * cell).map(|i| (i % cell, i / cell)) {
+            let unit = |i: u32| (i as f32 + 0.5) / cell as f32 * 2.0 - 1.0;
+            let r = libm::sqrtf(unit(x) * unit(x) + unit(y) * unit(y));
+            let light = match part {
+                FlareCell::Disc => 0.8,
+                FlareCell::Ring => libm::expf(-40.0 * (r - 0.7) * (r - 0.7)),
+                FlareCell::Glow => 1.0 - r * r,
+                FlareCell::Starburst => libm::expf(-8.0 * r),
+            };
+            let edge = ((0.87 - r) / 0.05).clamp(0.0, 1.0);
+            image.texel_mut(left + x, top + y)[0] = light * edge;
         }
     }
     image
 }
 
 pub(crate) fn layers() -> Vec<Image> {
-    [31, 32, 33].map(|seed| layer(&waves(64, seed))).into()
+    let kinds = [31, 32, 33].into_iter().zip(LayerKind::ALL);
+    kinds
+        .map(|(seed, kind)| layer(&with_mean(waves(64, seed), 0.0, kind.mean_density())))
+        .collect()
 }
 
 /// A layer of the role `layers` with this density and a root mean square slope of 0.7.

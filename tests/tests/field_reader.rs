@@ -40,6 +40,7 @@ fn field_pack(text: &str) -> Pack {
         recipe: text.to_string(),
         inputs: Vec::new(),
         noon_elevation_rad: 1.0,
+        ..PackInfo::default()
     };
     let pack = Pack::build(info, Vec::new()).unwrap();
     pack.with_field(field).unwrap()

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use serde_json::json;
-use welkin_pack::manifest::{Channel, TextureEntry};
+use welkin_pack::manifest::{Channel, FractalNoise, TextureEntry};
 use welkin_pack::{Manifest, Pack};
 
 use super::{PackArgs, output, picture};
@@ -84,14 +84,24 @@ fn channel(text: &mut String, channel: &Channel) -> std::fmt::Result {
         range: [low, high],
         mean,
         spread,
+        fractal,
     } = channel;
     let unit = if unit == "1" {
         String::new()
     } else {
         format!(" {unit}")
     };
+    let octaves = fractal.map_or_else(String::new, |noise| {
+        let FractalNoise {
+            cells,
+            octaves,
+            gain,
+            mean,
+        } = noise;
+        format!(" ({octaves} octaves from {cells} cells, gain {gain}, to the mean {mean})")
+    });
     writeln!(
         text,
-        "  {name:<10} {low}..{high}{unit}, mean {mean:.4}, spread {spread:.4}: {meaning}"
+        "  {name:<10} {low}..{high}{unit}, mean {mean:.4}, spread {spread:.4}: {meaning}{octaves}"
     )
 }

@@ -11,9 +11,6 @@ use crate::fractal::{Fractal, Octaves};
 use crate::settings::LayerSettings;
 use crate::stream::Stream;
 
-/// Mean density.
-pub(super) const MEAN: f32 = 0.42;
-
 /// Cells of the first octave of fibres: along u across the tile, and along v for each cell of the settings.
 const FIBRES: [f64; 2] = [1.0, 3.0];
 

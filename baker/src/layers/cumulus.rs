@@ -12,9 +12,6 @@ use crate::fractal::{Fractal, Octaves};
 use crate::settings::LayerSettings;
 use crate::stream::Stream;
 
-/// Mean density: clear space is more than heaps are.
-pub(super) const MEAN: f32 = 0.4;
-
 /// Radii of the smallest and the largest heap, in cells: where a hill has half of its height. With six cells across the
 /// tile they are a twentieth and a seventh of it, so heaps are a tenth to a quarter wide.
 const RADII: [f64; 2] = [0.3, 0.9];

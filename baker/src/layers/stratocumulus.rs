@@ -12,9 +12,6 @@ use crate::fractal::{Fractal, Octaves};
 use crate::settings::LayerSettings;
 use crate::stream::Stream;
 
-/// Mean density: a sheet is as much cloud as gap.
-pub(super) const MEAN: f32 = 0.5;
-
 /// Strength of the displacement that makes lumps uneven, in cells.
 const DISPLACEMENT: f64 = 0.3;
 

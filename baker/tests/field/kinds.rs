@@ -15,6 +15,7 @@ fn problems(field: &Field) -> Vec<String> {
         recipe: String::new(),
         inputs: Vec::new(),
         noon_elevation_rad: 1.0,
+        ..PackInfo::default()
     };
     let pack = Pack::build(info, Vec::new()).unwrap();
     let pack = pack.with_field(field.clone()).unwrap();

@@ -1,9 +1,16 @@
 //! The packed cloud texture.
 
+mod character;
+
 use super::report::{Bound, Report};
-use super::rule::{CLOUD_COVER, CLOUD_SPREAD, GRADIENT_ENDS, GRADIENT_MONOTONE, GRADIENT_STEP};
+use super::rule::{
+    CLOUD_APART, CLOUD_BAND, CLOUD_CLEAR, CLOUD_COVER, CLOUD_MEAN, CLOUD_SPREAD, CLOUD_WAVES,
+    GRADIENT_ENDS, GRADIENT_MONOTONE, GRADIENT_STEP,
+};
+use super::spectrum::Spectrum;
 use super::{subject, tiling};
-use crate::{Format, Role, Texture};
+use crate::manifest::{FractalNoise, TextureEntry};
+use crate::{Format, Image, Role, Texture};
 
 const PHOTO: usize = 0;
 const NOISE: usize = 1;
@@ -17,7 +24,19 @@ const SHAPE_WAVE_TEXELS: f64 = 6.0;
 /// The same for the detail channel, which only modulates.
 const DETAIL_WAVE_TEXELS: f64 = 4.0;
 
-pub(super) fn check(report: &mut Report, texture: &Texture) {
+/// Share of the texels that are quite clear, 0: of photo, noise and detail, at least.
+const CLEAR_SHARES: [f64; 3] = [0.05, 0.002, 0.002];
+
+/// The most that the gradients of two channels may be alike: copies have 0.9 and more, even where a steep curve and
+/// bytes have rounded half of them away; noise of a single cell reached 0.6.
+const MOST_ALIKE: f64 = 0.8;
+
+/// Effective waves of a photograph: three pairs. The built-in one has 40.
+const LEAST_PHOTO_WAVES: f64 = 6.0;
+
+/// `entry` is what the manifest says of it, if it is in a pack.
+pub(super) fn check(report: &mut Report, texture: &Texture, entry: Option<&TextureEntry>) {
+    check_character(report, &texture.image(0, 0), entry);
     for channel in [PHOTO, NOISE, DETAIL] {
         tiling::check_seam(report, Role::Clouds, texture, channel);
         let wave = if channel == DETAIL {
@@ -37,6 +56,86 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
     }
     check_cover(report, texture);
     check_gradient(report, texture);
+}
+
+/// What tells the three channels from each other and from anything else.
+fn check_character(report: &mut Report, image: &Image, entry: Option<&TextureEntry>) {
+    let ranks = [PHOTO, NOISE, DETAIL].map(|channel| character::ranks(image, channel));
+    for (channel, ranks) in ranks.iter().enumerate() {
+        let name = subject(Role::Clouds, channel);
+        check_clear(report, image, channel);
+        let noise = entry.and_then(|e| e.channels.get(channel)?.fractal.as_ref());
+        let spectrum = Spectrum::new(ranks, 0);
+        let least = match noise {
+            Some(noise) => character::least_waves(noise, image.width),
+            None if channel == PHOTO => LEAST_PHOTO_WAVES,
+            None => character::STRIPES,
+        };
+        let waves = character::waves(&spectrum);
+        report.measure(CLOUD_WAVES, &name, waves, Bound::AtLeast(least));
+        match noise {
+            Some(noise) => check_fractal(report, image, channel, noise, &spectrum),
+            None if channel == PHOTO => {}
+            None => {
+                for rule in [CLOUD_BAND, CLOUD_MEAN] {
+                    report.skip(rule, &name, "no manifest tells its octaves");
+                }
+            }
+        }
+    }
+    for (a, b) in [(PHOTO, NOISE), (NOISE, DETAIL), (PHOTO, DETAIL)] {
+        let [first, second] = [a, b].map(|c| Role::Clouds.spec().channels[c].name);
+        report.measure(
+            CLOUD_APART,
+            &format!("{} {first}, {second}", Role::Clouds.name()),
+            character::likeness(&ranks[a], &ranks[b]),
+            Bound::AtMost(MOST_ALIKE),
+        );
+    }
+}
+
+/// Channels end at 0 with a share of quite clear texels, and touch 1: neither their inverse does, nor what was shifted.
+fn check_clear(report: &mut Report, image: &Image, channel: usize) {
+    let name = subject(Role::Clouds, channel);
+    let count = f64::from(image.width) * f64::from(image.height);
+    let clear = image.channel(channel).filter(|v| *v == 0.0).count() as f64;
+    // The share of ranks below the quantile, whose rank is rounded.
+    let least = (CLEAR_SHARES[channel] * (count - 1.0) - 0.5).max(1.0) / count;
+    report.measure(CLOUD_CLEAR, &name, clear / count, Bound::AtLeast(least));
+    let peak = image.channel(channel).fold(0.0, f32::max);
+    report.measure(
+        CLOUD_CLEAR,
+        &format!("{name} peak"),
+        f64::from(peak),
+        Bound::Within(1.0, 1.0),
+    );
+}
+
+fn check_fractal(
+    report: &mut Report,
+    image: &Image,
+    channel: usize,
+    noise: &FractalNoise,
+    spectrum: &Spectrum,
+) {
+    let name = subject(Role::Clouds, channel);
+    let expected = character::expected_band(noise, image.width);
+    let slack = character::band_slack(noise);
+    report.measure(
+        CLOUD_BAND,
+        &name,
+        character::band(spectrum),
+        Bound::Within(expected - slack, expected + slack),
+    );
+    // The bake meets it to a thousandth; bytes round by half a step, all the same way at worst.
+    let (mean, declared) = (image.mean_and_spread(channel).0, noise.mean);
+    let slack = 0.001 + 0.5 / 255.0;
+    report.measure(
+        CLOUD_MEAN,
+        &name,
+        f64::from(mean),
+        Bound::Within(f64::from(declared) - slack, f64::from(declared) + slack),
+    );
 }
 
 /// How much of the sky has clouds, for two amounts of cover.

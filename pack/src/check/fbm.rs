@@ -2,8 +2,9 @@
 
 mod band;
 
+use super::chance::FALSE_ALARMS;
 use super::report::{Bound, Report};
-use super::rule::{DISPLACED, OCTAVE_BAND};
+use super::rule::{DISPLACED, OCTAVE_BAND, OCTAVE_EVEN};
 use super::spectrum::Spectrum;
 use super::{subject, tiling};
 use crate::mapping::FBM_STEPS_A_TILE;
@@ -64,6 +65,7 @@ fn check_bands(report: &mut Report, layers: &[Image]) {
     let cells = cells_of_the_first(&spectra, size);
     for (index, spectrum) in spectra.iter().enumerate() {
         let (cells, layer) = (cells << index, index + 1);
+        check_even(report, &layers[index], cells, layer);
         let octave = Interpolation::new(size, cells);
         let mut measure = |cut: u32, bound| {
             let name = format!("{} {layer} below {cut}", subject(Role::Fbm, NOISE));
@@ -75,6 +77,36 @@ fn check_bands(report: &mut Report, layers: &[Image]) {
         );
         measure(cells / 2, Bound::AtMost(octave.share_below(cells / 2)[1]));
     }
+}
+
+/// The largest distance of the lattice values' distribution from an even one.
+///
+/// Of `n` independent values it exceeds `e` with a probability of at most `2 exp(-2 n e^2)` (P. Massart, "The tight
+/// constant in the Dvoretzky-Kiefer-Wolfowitz inequality", Annals of Probability 18, 1990).
+fn check_even(report: &mut Report, image: &Image, cells: u32, layer: usize) {
+    let step = (image.width / cells).max(1);
+    let lattice = (0..image.height).step_by(step as usize);
+    let lattice =
+        lattice.flat_map(|y| (0..image.width).step_by(step as usize).map(move |x| (x, y)));
+    let mut values: Vec<f64> = lattice
+        .map(|(x, y)| f64::from(image.texel(x, y)[NOISE]))
+        .collect();
+    values.sort_unstable_by(f64::total_cmp);
+    let count = values.len() as f64;
+    let distances = values.iter().enumerate().map(|(i, value)| {
+        let i = i as f64;
+        (value - i / count)
+            .abs()
+            .max((value - (i + 1.0) / count).abs())
+    });
+    let most = libm::sqrt(libm::log(2.0 / FALSE_ALARMS) / (2.0 * count));
+    report.measure(
+        OCTAVE_EVEN,
+        &format!("{} {layer}", subject(Role::Fbm, NOISE)),
+        distances.fold(0.0, f64::max),
+        // Half a step of rounding.
+        Bound::AtMost(most + 0.5 / 255.0),
+    );
 }
 
 /// The least power of two below which the first layer has the energy that it should have. Its bound is so

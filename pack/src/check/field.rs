@@ -2,7 +2,8 @@
 
 use super::report::{Bound, Report};
 use super::rule::{
-    FIELD_BOXES, FIELD_COUNTS, FIELD_CULL, FIELD_HOURS, FIELD_INDEX, FIELD_RANGE, FIELD_RANK,
+    FIELD_BOXES, FIELD_COUNTS, FIELD_CULL, FIELD_HOURS, FIELD_INDEX, FIELD_LIGHT, FIELD_RANGE,
+    FIELD_RANK, FIELD_SIZE, FIELD_SPREAD,
 };
 use crate::Field;
 use crate::field::{Cloud, Sprite};
@@ -25,6 +26,8 @@ pub(super) fn check(report: &mut Report, field: &Field) {
     report.verify(FIELD_RANGE, SUBJECT, field.verify_ranges(file));
     report.verify(FIELD_RANK, SUBJECT, field.verify_ranks(file));
     report.verify(FIELD_HOURS, SUBJECT, field.verify_hours(file));
+    check_light(report, field);
+    check_sizes(report, field);
     let indices = field.verify_indices(file);
     if report.verify(FIELD_INDEX, SUBJECT, indices).is_none() {
         for rule in [FIELD_BOXES, FIELD_CULL, FIELD_COUNTS] {
@@ -37,6 +40,53 @@ pub(super) fn check(report: &mut Report, field: &Field) {
     report.measure(FIELD_BOXES, SUBJECT, sum(outside), none);
     report.measure(FIELD_CULL, SUBJECT, sum(too_near), none);
     check_counts(report, field);
+}
+
+/// A sprite may be larger than the box that its centre is in, but not than several of its clouds.
+const MOST_RADII: f64 = 4.0;
+
+fn check_sizes(report: &mut Report, field: &Field) {
+    let largest = field.clouds.iter().map(|cloud| {
+        let sides = cloud.sprites.iter().flat_map(|sprite| sprite.size_m);
+        f64::from(sides.fold(0.0, f32::max)) / f64::from(cloud.radius_m())
+    });
+    let largest = largest.fold(0.0, f64::max);
+    report.measure(FIELD_SIZE, SUBJECT, largest, Bound::AtMost(MOST_RADII));
+    // Ranks are shares of ground, and every cloud covers some.
+    let count = field.clouds.len();
+    let alike = field
+        .clouds
+        .windows(2)
+        .filter(|pair| pair[0].rank == pair[1].rank);
+    let most = if count < 8 { count } else { count / 2 };
+    report.measure(
+        FIELD_SPREAD,
+        SUBJECT,
+        alike.count() as f64,
+        Bound::AtMost(most as f64),
+    );
+}
+
+/// The least light of the brightest hour: what is darker is a night.
+const LEAST_LIGHT: f64 = 0.25;
+
+fn check_light(report: &mut Report, field: &Field) {
+    let light = |hour: &crate::field::Hour| {
+        let [r, g, b] = hour.colour.map(f64::from);
+        // ITU-R BT.709-6, item 3.2.
+        f64::from(hour.ambient) + f64::from(hour.most) * (0.2126 * r + 0.7152 * g + 0.0722 * b)
+    };
+    let brightest = field.hours.iter().map(light).fold(0.0, f64::max);
+    let darkest = field.hours.iter().map(light).fold(f64::INFINITY, f64::min);
+    report.measure(FIELD_LIGHT, SUBJECT, brightest, Bound::AtLeast(LEAST_LIGHT));
+    let is_a_day = field.hours.len() > 1;
+    let most = if is_a_day { 0.8 * brightest } else { brightest };
+    report.measure(
+        FIELD_LIGHT,
+        &format!("{SUBJECT} darkest"),
+        darkest,
+        Bound::AtMost(most),
+    );
 }
 
 fn check_counts(report: &mut Report, field: &Field) {

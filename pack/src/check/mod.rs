@@ -9,6 +9,7 @@ mod clouds;
 mod fbm;
 mod field;
 mod files;
+mod finite;
 mod flares;
 mod galaxy;
 mod layers;
@@ -33,6 +34,7 @@ use std::path::Path;
 pub use report::{Finding, Outcome, Report};
 pub use rule::{RULES, Rule, Severity};
 
+use crate::manifest::TextureEntry;
 use crate::read::{in_folder, in_memory};
 use crate::{PackError, Role, Texture};
 use files::Place;
@@ -65,11 +67,16 @@ pub fn check_memory(place: &str, files: &BTreeMap<String, Vec<u8>>) -> Result<Re
 
 fn check_place(place: Place) -> Result<Report, PackError> {
     let mut report = Report::default();
-    let (textures, clouds) = files::check(&mut report, place)?;
-    for (role, texture) in &textures {
-        check_texture(&mut report, *role, texture);
+    let contents = files::check(&mut report, place)?;
+    let manifest = &contents.manifest;
+    for (role, texture) in &contents.textures {
+        let claim = Claim {
+            entry: manifest.texture(*role),
+            noon_elevation_rad: Some(manifest.noon_elevation_rad),
+        };
+        check_texture(&mut report, *role, texture, claim);
     }
-    if let Some(clouds) = &clouds {
+    if let Some(clouds) = &contents.field {
         field::check(&mut report, clouds);
     }
     let order = |id: &str| RULES.iter().position(|rule| rule.id == id);
@@ -77,13 +84,26 @@ fn check_place(place: Place) -> Result<Report, PackError> {
     Ok(report)
 }
 
-fn check_texture(report: &mut Report, role: Role, texture: &Texture) {
+/// What a manifest says that rules rely on; nothing of a texture that is in no pack.
+#[derive(Clone, Copy, Default)]
+struct Claim<'a> {
+    /// The texture's entry.
+    entry: Option<&'a TextureEntry>,
+    /// Elevation of the sun at noon.
+    noon_elevation_rad: Option<f32>,
+}
+
+fn check_texture(report: &mut Report, role: Role, texture: &Texture, claim: Claim) {
+    if !finite::check(report, role, texture) {
+        // No figure of what is not a number means anything.
+        return;
+    }
     mips::check(report, role, texture);
     match role {
-        Role::Clouds => clouds::check(report, texture),
+        Role::Clouds => clouds::check(report, texture, claim.entry),
         Role::Stars => stars::check(report, texture),
         Role::Galaxy => galaxy::check(report, texture),
-        Role::Sky => sky::check(report, texture),
+        Role::Sky => sky::check(report, texture, claim.noon_elevation_rad),
         Role::Sun => sun::check(report, texture),
         Role::Octaves => octaves::check(report, texture),
         Role::Fbm => fbm::check(report, texture),

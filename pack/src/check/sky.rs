@@ -1,23 +1,27 @@
 //! The day gradient.
 
 use super::report::{Bound, Report};
-use super::rule::{SKY_DAY, SKY_NIGHT, SKY_RANGE, SKY_STEP};
+use super::rule::{SKY_COLOUR, SKY_DAY, SKY_HOURS, SKY_NIGHT, SKY_RANGE, SKY_STEP};
+use crate::mapping::{night_share, sun_direction};
 use crate::{Image, Role, Texture};
 
 const NAME: &str = Role::Sky.name();
 
-pub(super) fn check(report: &mut Report, texture: &Texture) {
+/// `noon_elevation_rad` is what the manifest says, if there is one.
+pub(super) fn check(report: &mut Report, texture: &Texture, noon_elevation_rad: Option<f32>) {
     let image = texture.image(0, 0);
     let colours = || image.texels.chunks_exact(4).flat_map(|t| &t[..3]);
     let wrong = colours().filter(|v| !v.is_finite() || **v < 0.0).count();
     report.measure(SKY_RANGE, NAME, wrong as f64, Bound::AtMost(0.0));
     if wrong > 0 {
-        for rule in [SKY_NIGHT, SKY_DAY, SKY_STEP] {
+        for rule in [SKY_NIGHT, SKY_HOURS, SKY_COLOUR, SKY_DAY, SKY_STEP] {
             report.skip(rule, NAME, "the radiance is not sound");
         }
         return;
     }
     check_night(report, &image);
+    check_hours(report, &image, noon_elevation_rad);
+    check_colour(report, &image);
     let (noon, midnight) = (image.width / 2, 0);
     let mean = |x: u32| {
         (0..image.height)
@@ -53,6 +57,49 @@ fn check_night(report: &mut Report, image: &Image) {
         worst = worst.max(-share).max(share - 1.0);
     }
     report.measure(SKY_NIGHT, NAME, f64::from(worst), Bound::AtMost(0.02));
+}
+
+/// The night share is a function of the sun's elevation, which time and noon give; the sun's way is symmetric about noon.
+fn check_hours(report: &mut Report, image: &Image, noon_elevation_rad: Option<f32>) {
+    let places = || (0..image.height).flat_map(|y| (0..image.width).map(move |x| (x, y)));
+    let uneven = places().map(|(x, y)| {
+        let evening = image.texel((image.width - x) % image.width, y);
+        let pairs = image.texel(x, y).iter().zip(evening);
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+    });
+    report.measure(
+        SKY_HOURS,
+        &format!("{NAME} evening"),
+        f64::from(uneven.fold(0.0, f32::max)),
+        Bound::AtMost(0.0),
+    );
+    let Some(noon) = noon_elevation_rad else {
+        report.skip(SKY_HOURS, NAME, "no manifest tells how high the sun stands");
+        return;
+    };
+    let off = places().map(|(x, y)| {
+        let [_, sun_sin, _] = sun_direction(x as f32 / image.width as f32, noon);
+        (image.texel(x, y)[3] - night_share(sun_sin)).abs()
+    });
+    // Half floats below 1 have steps of 1/2048 and less.
+    report.measure(
+        SKY_HOURS,
+        NAME,
+        f64::from(off.fold(0.0, f32::max)),
+        Bound::AtMost(1.0 / 2048.0),
+    );
+}
+
+/// Air scatters blue more than green and green more than red, and least of all that comes from above is reddened.
+fn check_colour(report: &mut Report, image: &Image) {
+    let zenith = image.texel(image.width / 2, image.height - 1);
+    let steps = [zenith[1] - zenith[0], zenith[2] - zenith[1]];
+    report.measure(
+        SKY_COLOUR,
+        NAME,
+        f64::from(steps[0].min(steps[1])),
+        Bound::AtLeast(0.0),
+    );
 }
 
 /// The largest change of luminance from one time to the next, against the brightest of the whole day.

@@ -66,7 +66,8 @@ impl Spectrum {
         places.map(move |(i, &energy)| (i % size, i / size, energy))
     }
 
-    fn magnitude(&self, k: usize) -> usize {
+    /// A wave number without its sign.
+    pub(super) fn magnitude(&self, k: usize) -> usize {
         k.min(self.size - k)
     }
 }

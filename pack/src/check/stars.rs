@@ -6,7 +6,8 @@
 use super::chance::{FALSE_ALARMS, chi_squared, chi_squared_quantile};
 use super::report::{Bound, Report};
 use super::rule::{
-    STAR_CLIP, STAR_CLUSTER, STAR_EMPTY, STAR_LATTICE, STAR_LIGHT, STAR_PHASE, STAR_SHARE,
+    STAR_BRIGHTEST, STAR_CLIP, STAR_CLUSTER, STAR_EMPTY, STAR_FLICKER, STAR_LATTICE, STAR_LIGHT,
+    STAR_PHASE, STAR_RATE, STAR_RECORD, STAR_SHARE,
 };
 use super::spectrum::Spectrum;
 use crate::{Image, Role, Texture};
@@ -40,40 +41,152 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         share,
         Bound::Within(1.0 / 3000.0, 1.0 / 16.0),
     );
-    check_light(report, texture);
+    check_levels(report, texture);
+    check_flicker(report, texture);
     if lit.len() < 20 {
-        for rule in [STAR_PHASE, STAR_LATTICE, STAR_CLUSTER] {
+        for rule in [
+            STAR_BRIGHTEST,
+            STAR_RATE,
+            STAR_PHASE,
+            STAR_LATTICE,
+            STAR_CLUSTER,
+        ] {
             report.skip(rule, NAME, "too few stars for statistics");
         }
         return;
     }
-    let phases: Vec<u8> = texels(0).filter(|t| t[0] > 0).map(|t| t[3]).collect();
-    check_phases(report, &phases);
+    let of_stars = |channel: usize| -> Vec<u8> {
+        let stars = texels(0).filter(|t| t[0] > 0);
+        stars.map(|t| t[channel]).collect()
+    };
+    check_brightest(report, &of_stars(0));
+    check_rates(report, &of_stars(1));
+    check_phases(report, &of_stars(3));
     check_lattice(report, &lit, texture.width);
     check_clusters(report, &lit, texture.width, texture.height);
 }
 
-/// The sum of intensities times the area of a texel, level by level.
-fn check_light(report: &mut Report, texture: &Texture) {
-    let sum = |level: usize| {
-        let sum: u64 = texture.levels[level]
-            .iter()
-            .step_by(4)
-            .map(|&b| u64::from(b))
-            .sum();
-        sum as f64
-    };
-    let base = sum(0);
-    let mut worst = 0.0_f64;
+/// Each texel of a level against the stars under it.
+///
+/// Intensities are added up and divided by the level's unit: the least whole number by which all sums, and their flicker,
+/// fit a byte. Where it is 1 nothing is rounded; elsewhere rounding, and what is carried from texel to texel, are a step
+/// each. Rate and phase are those of one of the texels above.
+fn check_levels(report: &mut Report, texture: &Texture) {
+    let (mut light, mut strangers) = (0.0_f64, 0_usize);
+    let mut sums: Vec<[u32; 2]> = texture.levels[0]
+        .chunks_exact(4)
+        .map(|t| [t[0], t[2]].map(u32::from))
+        .collect();
     for level in 1..texture.levels.len() {
         let (width, height) = texture.level_size(level);
-        let texels = f64::from(width) * f64::from(height);
-        let expected = base * texels / (f64::from(texture.width) * f64::from(texture.height));
-        // One step of a byte is the least that a level can be wrong by. Each star of level 0 was
-        // rounded before the levels were made, by a half step at most; a fiftieth is far above that.
-        worst = worst.max((sum(level) - expected).abs() / (1.0 + 0.02 * expected));
+        let above = texture.level_size(level - 1);
+        let [step_x, step_y] = [above.0 / width, above.1 / height].map(|n| n as usize);
+        let under = |i: usize| {
+            let (x, y) = (i % width as usize * step_x, i / width as usize * step_y);
+            (0..step_x * step_y).map(move |j| (y + j / step_x) * above.0 as usize + x + j % step_x)
+        };
+        let texels = texture.levels[level].chunks_exact(4);
+        sums = (0..texels.len())
+            .map(|i| [0, 1].map(|channel| under(i).map(|j| sums[j][channel]).sum()))
+            .collect();
+        let largest = sums.iter().map(|[light, flicker]| light + flicker).max();
+        let unit = f64::from(largest.unwrap_or(0).div_ceil(255).max(1));
+        let slack = if unit > 1.0 { 2.0 * unit } else { 0.5 };
+        for (i, texel) in texels.enumerate() {
+            let off = f64::from(texel[0]) * unit - f64::from(sums[i][0]);
+            light = light.max(off.abs() / slack);
+            let mut stars = under(i)
+                .map(|j| &texture.levels[level - 1][4 * j..][..4])
+                .filter(|t| t[0] > 0)
+                .peekable();
+            let is_empty = texel[0] == 0 && stars.peek().is_none();
+            let is_one = stars.any(|t| t[1] == texel[1] && t[3] == texel[3]);
+            strangers += usize::from(!is_one && !is_empty);
+        }
     }
-    report.measure(STAR_LIGHT, NAME, worst, Bound::AtMost(1.0));
+    report.measure(STAR_LIGHT, NAME, light, Bound::AtMost(1.0));
+    report.measure(STAR_RECORD, NAME, strangers as f64, Bound::AtMost(0.0));
+}
+
+/// Light-weighted amplitudes that stars have, as a share of their light: the format's records have 0.1 to 0.6.
+const FLICKER: Bound = Bound::Within(0.1, 0.6);
+
+/// How far the relative amplitude of a level may be from that of level 0.
+const FLICKER_ERROR: f64 = 0.02;
+
+fn check_flicker(report: &mut Report, texture: &Texture) {
+    let sums = |level: &Vec<u8>| {
+        let sum = |channel: usize| -> f64 {
+            let bytes = level.iter().skip(channel).step_by(4);
+            bytes.map(|&byte| f64::from(byte)).sum()
+        };
+        [sum(0), sum(2)]
+    };
+    let relative = |[light, amplitude]: [f64; 2]| amplitude / light.max(1.0);
+    let base = sums(&texture.levels[0]);
+    report.measure(STAR_FLICKER, NAME, relative(base), FLICKER);
+    let worst = texture.levels[1..].iter().map(sums).map(|level| {
+        // Half a step of the level's sum is left over.
+        let rounding = 0.5 / level[0].max(1.0);
+        ((relative(level) - relative(base)).abs() - rounding).max(0.0) / relative(base).max(1e-6)
+    });
+    report.measure(
+        STAR_FLICKER,
+        &format!("{NAME} levels"),
+        worst.fold(0.0, f64::max),
+        Bound::AtMost(FLICKER_ERROR),
+    );
+}
+
+/// The brightest star of `n`: brightness falls by the law N(>I) = I^(-1.25) over five magnitudes at most from 0.8 at
+/// least, and one star is drawn from each of `n` equal shares of it. So the brightest has `0.8 (1 + 10^2.5 / n)^(-0.8)`, less
+/// half a step of rounding.
+fn check_brightest(report: &mut Report, intensities: &[u8]) {
+    let count = intensities.len() as f64;
+    let brightest = intensities
+        .iter()
+        .max()
+        .map_or(0.0, |&i| f64::from(i) / 255.0);
+    let least = 0.8 * libm::pow(1.0 + libm::pow(10.0, 2.5) / count, -0.8) - 0.5 / 255.0;
+    report.measure(STAR_BRIGHTEST, NAME, brightest, Bound::AtLeast(least));
+}
+
+/// Rates that stars have, in 64ths of a hertz: 0.2 to 3.95 Hz, even between them, and cut to whole ones.
+const RATES: [f64; 2] = [12.8, 252.8];
+
+/// Pearson's chi-squared test of the rates in bins of 16 bytes.
+fn check_rates(report: &mut Report, rates: &[u8]) {
+    const BINS: usize = 15;
+    let first = RATES[0] as u8;
+    let outside = rates
+        .iter()
+        .filter(|rate| !(first..=RATES[1] as u8).contains(rate));
+    report.measure(
+        STAR_RATE,
+        &format!("{NAME} outside"),
+        outside.count() as f64,
+        Bound::AtMost(0.0),
+    );
+    let mut bins = [0.0_f64; BINS];
+    for rate in rates {
+        bins[usize::from(rate.saturating_sub(first) / 16).min(BINS - 1)] += 1.0;
+    }
+    let edge = |bin: usize| (f64::from(first) + 16.0 * bin as f64).max(RATES[0]);
+    let chi_squared = bins.iter().enumerate().map(|(bin, &found)| {
+        let end = if bin + 1 == BINS {
+            RATES[1]
+        } else {
+            edge(bin + 1)
+        };
+        let expected = rates.len() as f64 * (end - edge(bin)) / (RATES[1] - RATES[0]);
+        (found - expected) * (found - expected) / expected
+    });
+    report.measure(
+        STAR_RATE,
+        NAME,
+        chi_squared.sum(),
+        Bound::AtMost(chi_squared_quantile((BINS - 1) as f64)),
+    );
 }
 
 /// Pearson's chi-squared test of the phases in 16 bins (K. Pearson, 1900).

@@ -1,7 +1,7 @@
 //! The sun's disc and glow.
 
 use super::report::{Bound, Report};
-use super::rule::{SUN_BORDER, SUN_DISC};
+use super::rule::{SUN_BORDER, SUN_DISC, SUN_ROUND};
 use super::subject;
 use crate::{Image, Role, Texture};
 
@@ -35,7 +35,36 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         f64::from(outside),
         Bound::AtMost(0.01),
     );
+    check_round(report, &image);
     check_border(report, texture);
+}
+
+/// Compares every texel with its mirror images, and with the one before it on the way out: a step of a byte is rounding.
+fn check_round(report: &mut Report, image: &Image) {
+    let (last, half) = (image.width - 1, image.width / 2);
+    for channel in 0..image.channels {
+        let at = |x: u32, y: u32| image.texel(x, y)[channel];
+        let mut worst = 0.0_f32;
+        for (x, y) in (0..half).flat_map(|y| (0..half).map(move |x| (x, y))) {
+            let here = at(x, y);
+            for mirrored in [
+                at(last - x, y),
+                at(x, last - y),
+                at(last - x, last - y),
+                at(y, x),
+            ] {
+                worst = worst.max((here - mirrored).abs());
+            }
+            let inwards = if x + 1 < half { at(x + 1, y) } else { here };
+            worst = worst.max(here - inwards);
+        }
+        report.measure(
+            SUN_ROUND,
+            &subject(Role::Sun, channel),
+            f64::from(worst),
+            Bound::AtMost(1.01 / 255.0),
+        );
+    }
 }
 
 fn radius(image: &Image, x: u32, y: u32) -> f32 {

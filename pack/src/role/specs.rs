@@ -19,6 +19,14 @@ const fn channel(
         meaning,
         unit,
         range: [0.0, max],
+        is_fractal: false,
+    }
+}
+
+const fn fractal(name: &'static str, meaning: &'static str) -> ChannelSpec {
+    ChannelSpec {
+        is_fractal: true,
+        ..channel(name, meaning, "1", 1.0)
     }
 }
 
@@ -33,8 +41,8 @@ pub(super) const CLOUDS: RoleSpec = RoleSpec {
     filter: Filter::Linear,
     channels: &[
         channel("photo", "cloud amount from a photograph", "1", 1.0),
-        channel("noise", "cloud amount from fractal noise", "1", 1.0),
-        channel("detail", "finer fractal noise", "1", 1.0),
+        fractal("noise", "cloud amount from fractal noise"),
+        fractal("detail", "finer fractal noise"),
         channel(
             "gradient",
             "sunset tint, from away from the sun (top row) to below it (bottom row)",
@@ -231,12 +239,14 @@ pub(super) const LAYERS: RoleSpec = RoleSpec {
             meaning: "unit normal of the cloud's upper surface, component along +u",
             unit: "1",
             range: [-1.0, 1.0],
+            is_fractal: false,
         },
         ChannelSpec {
             name: "normal_y",
             meaning: "unit normal of the cloud's upper surface, component along +v",
             unit: "1",
             range: [-1.0, 1.0],
+            is_fractal: false,
         },
         channel("density", "cloud amount", "1", 1.0),
         channel(

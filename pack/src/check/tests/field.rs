@@ -59,7 +59,8 @@ fn ranks_and_hours_out_of_order_are_told() {
     assert_only("field-rank", &with_field(|f| f.clouds[19].rank = 1.01));
     assert_only("field-hours", &with_field(|f| f.hours.swap(1, 2)));
     assert_only("field-hours", &with_field(|f| f.hours[2].least = 1.5));
-    assert_only("field-hours", &with_field(|f| f.hours.clear()));
+    let dark = with_field(|f| f.hours.clear());
+    assert_errors(&["field-hours", "field-light"], &dark);
 }
 
 #[test]
@@ -102,4 +103,33 @@ fn unusual_counts_are_warnings() {
     let report = check_pack(&with_field(|f| f.sections = 2));
     let warned: Vec<_> = report.problems().map(|f| f.rule).collect();
     assert_eq!(warned, ["field-counts"]);
+}
+
+#[test]
+fn clouds_that_come_all_at_once_are_told() {
+    let alike = with_field(|f| f.clouds.iter_mut().for_each(|cloud| cloud.rank = 0.5));
+    assert_only("field-spread", &alike);
+}
+
+#[test]
+fn sprites_far_larger_than_their_cloud_are_told() {
+    let vast = with_field(|f| f.clouds[3].sprites[1].size_m = [10_000.0; 2]);
+    assert_only("field-size", &vast);
+}
+
+#[test]
+fn clouds_without_light_or_night_are_told() {
+    let dark = with_field(|f| {
+        for hour in &mut f.hours {
+            (hour.ambient, hour.colour) = (0.0, [0.0; 3]);
+        }
+    });
+    assert_only("field-light", &dark);
+    let even = with_field(|f| {
+        let noon = f.hours[2];
+        for hour in &mut f.hours {
+            (hour.ambient, hour.colour) = (noon.ambient, noon.colour);
+        }
+    });
+    assert_only("field-light", &even);
 }

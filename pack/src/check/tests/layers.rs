@@ -1,8 +1,8 @@
 //! Faults of the layers of clouds.
 
 use super::{assert_only, change_level, check_pack, each_texel, errors};
-use crate::test_pack::{Stream, layer, layers, waves, with_images, with_texture};
-use crate::{Image, Pack, Role};
+use crate::test_pack::{Stream, layer, layers, waves, with_images, with_mean, with_texture};
+use crate::{Image, LayerKind, Pack, Role};
 
 fn with_layer(index: usize, change: impl FnOnce(&mut Image)) -> Pack {
     with_images(Role::Layers, |images| change(&mut images[index]))
@@ -153,7 +153,8 @@ fn texel_noise_in_any_layer_is_not_smooth() {
                 .channel(2)
                 .map(|d| 0.25 + 0.5 * d + 0.25 * stream.unit())
                 .collect();
-            *image = layer(&density);
+            let mean = LayerKind::ALL[index].mean_density();
+            *image = layer(&with_mean(density, 0.0, mean));
         });
         assert_only("smooth", &rough);
     }
@@ -167,7 +168,8 @@ fn a_seam_in_any_layer_is_an_error() {
                 .zip(waves(64, 40))
                 .map(|(i, d)| 0.8 * d + 0.2 * (i / 64) as f32 / 64.0)
                 .collect();
-            *image = layer(&density);
+            let mean = LayerKind::ALL[index].mean_density();
+            *image = layer(&with_mean(density, 0.0, mean));
         });
         assert_only("seam", &ramp);
     }
@@ -178,9 +180,8 @@ fn sound_layers_of_many_kinds_pass() {
     for seed in 50..70 {
         let sound = with_images(Role::Layers, |images| {
             assert_eq!(images, &layers());
-            for (image, power) in images.iter_mut().zip([0.5, 1.0, 2.0]) {
-                let density = waves(64, seed).into_iter().map(|d| libm::powf(d, power));
-                *image = layer(&density.collect::<Vec<f32>>());
+            for (image, kind) in images.iter_mut().zip(LayerKind::ALL) {
+                *image = layer(&with_mean(waves(64, seed), 0.0, kind.mean_density()));
             }
         });
         let report = check_pack(&sound);

@@ -1,6 +1,6 @@
 //! Faults of the skybox.
 
-use super::{assert_only, check_pack, each_texel, errors};
+use super::{assert_only, check_pack, each_texel};
 use crate::Role;
 use crate::test_pack::{with, with_texture};
 
@@ -14,7 +14,7 @@ fn a_skybox_out_of_range_is_an_error() {
         let bytes = half::f16::INFINITY.to_le_bytes();
         t.levels[1][..2].copy_from_slice(&bytes);
     });
-    assert!(errors(&check_pack(&infinite)).contains(&"skybox-range"));
+    assert_only("finite", &infinite);
 }
 
 #[test]

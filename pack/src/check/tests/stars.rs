@@ -1,6 +1,6 @@
 //! Faults of the star texture.
 
-use super::{assert_only, change_level};
+use super::{assert_errors, assert_only, change_level, check_pack, errors};
 use crate::test_pack::{Stream, stars, with, with_texture};
 use crate::{Image, Pack, Role};
 
@@ -23,7 +23,8 @@ fn a_sky_full_of_stars_is_an_error() {
 
 #[test]
 fn a_sky_without_stars_is_an_error() {
-    assert_only("star-share", &with_stars(|image| image.texels.fill(0.0)));
+    let none = with_stars(|image| image.texels.fill(0.0));
+    assert_errors(&["star-share", "star-flicker"], &none);
 }
 
 #[test]
@@ -53,14 +54,18 @@ fn a_star_that_clips_is_an_error_on_any_level() {
 fn a_level_that_loses_light_is_an_error() {
     let darker = with_texture(Role::Stars, |t| {
         change_level(t, 1, |_, t| {
-            t[0] = t[0] * 3 / 4;
-            t[2] = t[2].min(t[0]);
-            if t[0] == 0 {
-                t.fill(0);
-            }
+            t[0] = if t[0] == 0 {
+                0
+            } else {
+                ((u16::from(t[0]) * 3 / 4) as u8).max(1)
+            };
+            t[2] = (u16::from(t[2]) * 3 / 4) as u8;
         });
     });
-    assert_only("star-light", &darker);
+    let rules = errors(&check_pack(&darker));
+    assert!(rules.contains(&"star-light"), "{rules:?}");
+    let moved = with_texture(Role::Stars, |t| t.levels[2].rotate_left(4));
+    assert_errors(&["star-light", "star-record"], &moved);
 }
 
 #[test]

@@ -1,0 +1,167 @@
+//! Whether a cloud channel is the one that it claims to be, and not a neighbour, its inverse or something else.
+//!
+//! # Theory
+//! The curve that gives a channel its mean is monotone, so the order of its values is that of the noise below it. Each
+//! value is replaced by its rank, which undoes every such curve; what is measured of ranks does not depend on the
+//! mean, nor on a curve that somebody has laid over a copy.
+//!
+//! - **Waves.** Noise of `c` cells has some `c^2` waves of about equal energy, a photograph dozens, stripes two. The effective
+//!   number is `(sum e)^2 / sum e^2` over the energies `e` (the participation ratio of R. J. Bell, P. Dean, "Atomic
+//!   vibrations in vitreous silica", 1970).
+//! - **Band.** An octave of `c` cells has its energy about the wave number `c / 2^1.25`, where the mean of the logarithm
+//!   lies; octaves weigh as the squares of their amplitudes.
+//! - **Apart.** Of independent channels the gradients have any angle `a` to each other, so `cos^2 a` is 1/2 on the mean, weighted by
+//!   their lengths. Of a channel and any monotone function of it, rising or falling, it is 1.
+
+use crate::Image;
+use crate::manifest::FractalNoise;
+
+use super::super::spectrum::Spectrum;
+
+/// Cells finer than this many texels are left out of the octaves.
+const FINEST_CELL_TEXELS: u32 = 6;
+
+/// Where the mean of the logarithm to the base 2 of the wave number lies, from that of the cells: the property of gradient
+/// noise, seen on a plane half way between two layers of its lattice.
+const BAND_OCTAVES: f64 = -1.25;
+
+/// The ranks of a channel's values, 0..1, as an image of one channel; equal values have the mean of their ranks.
+pub(super) fn ranks(image: &Image, channel: usize) -> Image {
+    let values: Vec<f32> = image.channel(channel).collect();
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_unstable_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let mut ranks = Image::new(image.width, image.height, 1);
+    let mut start = 0;
+    while start < order.len() {
+        let value = values[order[start]];
+        let count = order[start..]
+            .partition_point(|&i| values[i] <= value)
+            .max(1);
+        let rank = (start as f64 + count as f64 / 2.0) / order.len() as f64;
+        for &i in &order[start..start + count] {
+            ranks.texels[i] = rank as f32;
+        }
+        start += count;
+    }
+    ranks
+}
+
+/// The effective number of waves.
+pub(super) fn waves(spectrum: &Spectrum) -> f64 {
+    let squares: f64 = spectrum.vectors().map(|(_, _, e)| e * e).sum();
+    let total = spectrum.total();
+    total * total / squares.max(f64::MIN_POSITIVE)
+}
+
+/// The mean of the logarithm to the base 2 of the wave number, weighted by energy.
+pub(super) fn band(spectrum: &Spectrum) -> f64 {
+    let sum: f64 = spectrum
+        .vectors()
+        .filter(|(.., energy)| *energy > 0.0)
+        .map(|(kx, ky, energy)| {
+            let [x, y] = [kx, ky].map(|k| spectrum.magnitude(k) as f64);
+            0.5 * energy * libm::log2(x * x + y * y)
+        })
+        .sum();
+    sum / spectrum.total().max(f64::MIN_POSITIVE)
+}
+
+/// The same of noise with these octaves, from theory. Below wave number 1 there is nothing.
+pub(super) fn expected_band(noise: &FractalNoise, size: u32) -> f64 {
+    let finest = f64::from((size / FINEST_CELL_TEXELS).max(1));
+    let (mut sum, mut weights) = (0.0, 0.0);
+    let (mut weight, mut cells) = (1.0, f64::from(noise.cells));
+    for octave in 0..noise.octaves {
+        if octave > 0 && cells > finest {
+            break;
+        }
+        sum += weight * (libm::log2(cells) + BAND_OCTAVES).max(0.0);
+        weights += weight;
+        weight *= f64::from(noise.gain) * f64::from(noise.gain);
+        cells *= 2.0;
+    }
+    sum / weights
+}
+
+/// How far the band may lie from what theory says. The energies of the waves of one octave are random, so the mean over
+/// its `c^2` waves strays by about `0.5 / c`; four of that, and a fifth of an octave for the theory's own error.
+pub(super) fn band_slack(noise: &FractalNoise) -> f64 {
+    0.2 + 2.0 / f64::from(noise.cells)
+}
+
+/// The fewest effective waves of noise: a quarter of `c^2`, and more than stripes have.
+pub(super) fn least_waves(noise: &FractalNoise, size: u32) -> f64 {
+    // What is cut by the texels has no more waves than they have.
+    let cells = f64::from(noise.cells.min(size / FINEST_CELL_TEXELS));
+    (0.25 * cells * cells).max(STRIPES)
+}
+
+/// Effective waves that stripes have, with half of another.
+pub(super) const STRIPES: f64 = 2.25;
+
+/// How far the gradients of two channels, given as ranks, are alike: the mean of `cos^2` of their angle.
+pub(super) fn likeness(a: &Image, b: &Image) -> f64 {
+    let (width, height) = (a.width, a.height);
+    let gradient = |image: &Image, x: u32, y: u32| {
+        let at = |x: u32, y: u32| f64::from(image.texel(x % width, y % height)[0]);
+        [
+            at(x + 1, y) - at(x + width - 1, y),
+            at(x, y + 1) - at(x, y + height - 1),
+        ]
+    };
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        let ([ax, ay], [bx, by]) = (gradient(a, x, y), gradient(b, x, y));
+        let weight = libm::sqrt((ax * ax + ay * ay) * (bx * bx + by * by));
+        if weight > 0.0 {
+            let dot = ax * bx + ay * by;
+            sum += dot * dot / weight;
+            weights += weight;
+        }
+    }
+    if weights > 0.0 { sum / weights } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test_pack::waves as field;
+
+    fn image(values: Vec<f32>) -> Image {
+        let mut image = Image::new(64, 64, 1);
+        image.texels = values;
+        image
+    }
+
+    #[test]
+    fn ranks_forget_every_rising_curve_and_share_ties() {
+        let plain = image(field(64, 3));
+        let mut bent = plain.clone();
+        bent.texels
+            .iter_mut()
+            .for_each(|v| *v = libm::powf(*v, 3.0));
+        assert_eq!(ranks(&plain, 0), ranks(&bent, 0));
+        let mut ties = Image::new(2, 2, 1);
+        ties.texels = vec![0.5, 0.1, 0.5, 0.9];
+        assert_eq!(ranks(&ties, 0).texels, [0.5, 0.125, 0.5, 0.875]);
+    }
+
+    #[test]
+    fn a_channel_is_like_itself_and_its_inverse_and_no_other() {
+        let [a, b] = [3, 4].map(|seed| ranks(&image(field(64, seed)), 0));
+        let mut inverse = a.clone();
+        inverse.texels.iter_mut().for_each(|v| *v = 1.0 - *v);
+        assert!((likeness(&a, &a) - 1.0).abs() < 1e-6);
+        assert!((likeness(&a, &inverse) - 1.0).abs() < 1e-6);
+        assert!((likeness(&a, &b) - 0.5).abs() < 0.2, "{}", likeness(&a, &b));
+    }
+
+    #[test]
+    fn stripes_are_two_waves_in_one_place() {
+        let turn = |x: usize| std::f32::consts::TAU * 8.0 * (x % 64) as f32 / 64.0;
+        let stripes = image((0..4096).map(|i| libm::sinf(turn(i))).collect());
+        let spectrum = Spectrum::new(&stripes, 0);
+        assert!((waves(&spectrum) - 2.0).abs() < 1e-3);
+        assert!((band(&spectrum) - 3.0).abs() < 1e-3);
+    }
+}
