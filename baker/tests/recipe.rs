@@ -17,6 +17,29 @@ fn the_default_recipe_spells_out_the_defaults() {
 }
 
 #[test]
+fn line_ends_and_a_byte_order_mark_are_no_part_of_a_recipe() {
+    let windows = format!("\u{feff}{}", DEFAULT_RECIPE.replace('\n', "\r\n"));
+    assert_eq!(
+        resolve(&windows).unwrap(),
+        resolve(DEFAULT_RECIPE).unwrap()
+    );
+    // Places are told as an editor counts them.
+    let error = resolve("\u{feff}seed = 1\r\n\r\nstars.count = -3\r\n").unwrap_err();
+    assert!(
+        error.to_string().starts_with("sky.toml:3:15: stars.count"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_checkout_on_windows_has_the_recipes_as_they_are_here() {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let attributes = std::fs::read_to_string(format!("{root}/.gitattributes")).unwrap();
+    assert!(attributes.lines().any(|line| line == "* text=auto eol=lf"));
+    assert!(!DEFAULT_RECIPE.contains('\r'));
+}
+
+#[test]
 fn a_given_seed_overrides_the_recipes() {
     let recipe = Recipe::parse("sky.toml", "seed = 3").unwrap();
     assert_eq!(recipe.resolve(None).unwrap().seed, 3);
