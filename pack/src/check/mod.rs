@@ -34,7 +34,7 @@ pub use report::{Finding, Outcome, Report};
 pub use rule::{RULES, Rule, Severity};
 
 use crate::read::{in_folder, in_memory};
-use crate::{PackError, Role, Texture};
+use crate::{Field, Pack, PackError, Role, Texture};
 use files::Place;
 
 /// Checks the pack in a folder.
@@ -63,27 +63,61 @@ pub fn check_memory(place: &str, files: &BTreeMap<String, Vec<u8>>) -> Result<Re
     })
 }
 
+/// Checks what the textures and the field of a pack mean, as they are in memory.
+///
+/// The rules about files are left out: a [`Pack`] has read its files back, or was read from them. So nothing is decoded
+/// twice.
+pub fn check_pack(pack: &Pack) -> Report {
+    let noon_elevation_rad = pack.manifest.noon_elevation_rad;
+    let textures = pack.manifest.textures.iter().zip(&pack.textures);
+    let textures = textures.map(|(entry, texture)| (entry.role, texture));
+    let mut report = Report::default();
+    check_contents(
+        &mut report,
+        noon_elevation_rad,
+        textures,
+        pack.field.as_ref(),
+    );
+    report
+}
+
 fn check_place(place: Place) -> Result<Report, PackError> {
     let mut report = Report::default();
-    let (textures, clouds) = files::check(&mut report, place)?;
-    for (role, texture) in &textures {
-        check_texture(&mut report, *role, texture);
-    }
-    if let Some(clouds) = &clouds {
-        field::check(&mut report, clouds);
-    }
-    let order = |id: &str| RULES.iter().position(|rule| rule.id == id);
-    report.findings.sort_by_key(|finding| order(finding.rule));
+    let contents = files::check(&mut report, place)?;
+    let textures = contents.textures.iter();
+    let textures = textures.map(|(role, texture)| (*role, texture));
+    check_contents(
+        &mut report,
+        contents.noon_elevation_rad,
+        textures,
+        contents.field.as_ref(),
+    );
     Ok(report)
 }
 
-fn check_texture(report: &mut Report, role: Role, texture: &Texture) {
+fn check_contents<'a>(
+    report: &mut Report,
+    noon_elevation_rad: f32,
+    textures: impl Iterator<Item = (Role, &'a Texture)>,
+    field: Option<&Field>,
+) {
+    for (role, texture) in textures {
+        check_texture(report, noon_elevation_rad, role, texture);
+    }
+    if let Some(field) = field {
+        field::check(report, field);
+    }
+    let order = |id: &str| RULES.iter().position(|rule| rule.id == id);
+    report.findings.sort_by_key(|finding| order(finding.rule));
+}
+
+fn check_texture(report: &mut Report, noon_elevation_rad: f32, role: Role, texture: &Texture) {
     mips::check(report, role, texture);
     match role {
         Role::Clouds => clouds::check(report, texture),
         Role::Stars => stars::check(report, texture),
         Role::Galaxy => galaxy::check(report, texture),
-        Role::Sky => sky::check(report, texture),
+        Role::Sky => sky::check(report, texture, noon_elevation_rad),
         Role::Sun => sun::check(report, texture),
         Role::Octaves => octaves::check(report, texture),
         Role::Fbm => fbm::check(report, texture),

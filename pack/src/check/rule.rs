@@ -73,7 +73,7 @@ rules! {
     STAR_CLUSTER = error("star-cluster", "The stars are not clustered.");
     GALAXY_BRIGHTNESS = error("galaxy-brightness", "The galaxy is there, and does not fill the sky.");
     SKY_RANGE = error("sky-range", "Radiance is finite and not negative.");
-    SKY_NIGHT = error("sky-night", "The night share is 0 at noon, 1 at midnight, and never outside 0..1.");
+    SKY_NIGHT = error("sky-night", "The night share is what the sun's elevation lets it be at noon and at midnight, and never outside 0..1.");
     SKY_DAY = error("sky-day", "Noon is much brighter than midnight, and the horizon at noon brighter than the zenith.");
     SKY_STEP = warning("sky-step", "The sky changes without jumps from one time of day to the next.");
     SUN_DISC = error("sun-disc", "The sun's disc is bright in its middle and gone outside its edge.");

@@ -1,6 +1,6 @@
 //! Faults of the star texture.
 
-use super::{assert_only, change_level};
+use super::{assert_only, change_level, check_pack};
 use crate::test_pack::{Stream, stars, with, with_texture};
 use crate::{Image, Pack, Role};
 
@@ -24,6 +24,19 @@ fn a_sky_full_of_stars_is_an_error() {
 #[test]
 fn a_sky_without_stars_is_an_error() {
     assert_only("star-share", &with_stars(|image| image.texels.fill(0.0)));
+}
+
+#[test]
+fn a_lone_star_is_a_sky() {
+    for count in [1, 5, 20, 40] {
+        let pack = with_stars(|image| *image = stars(128, count));
+        let report = check_pack(&pack);
+        assert!(
+            report.is_sound(),
+            "{:#?}",
+            report.problems().collect::<Vec<_>>()
+        );
+    }
 }
 
 #[test]
