@@ -10,6 +10,10 @@ PACK := packs/default
 SKYBOX_PACK := packs/skybox
 FRAME := --size 1280x720
 
+# What `make recipes` bakes: twenty minutes on sixteen cores.
+RECIPES := 20000
+SEEDS := 10000
+
 # The three skies that every method draws.
 METHODS := packed octaves fbm lit sprites
 NOON := --time 0.45 --azimuth 100 --elevation 28
@@ -19,7 +23,7 @@ STORM := --time 0.42 --cover 0.92 --density 0.75 --azimuth 40 --elevation 25
 # Mesa's device selection complains of a desktop session that is not there; without it, nothing is lost.
 export NODEVICE_SELECT := 1
 
-.PHONY: help sky view gallery web test web-test check bench tools gpu-tools window-tools desktop-tools node-tools web-tools browser clean
+.PHONY: help sky view gallery web test web-test recipes check bench tools gpu-tools window-tools desktop-tools node-tools web-tools browser clean
 
 help: ## Say what can be made
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
@@ -123,6 +127,7 @@ test: gpu-tools window-tools desktop-tools node-tools ## Run every test, and for
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
 	$(CARGO) build --release --locked -p welkin-baker
 	WELKIN_RELEASE=$(CURDIR)/$(WELKIN) $(CARGO) test --workspace --locked -- --include-ignored
+	$(CARGO) test --release --locked -p welkin-baker --test legal --test sound
 	if $(CARGO) tree --locked -e normal,build -p welkin-baker | grep -q ' wgpu '; then echo "the baker must not need wgpu"; exit 1; fi
 	$(MAKE) web-test
 
@@ -130,6 +135,9 @@ test: gpu-tools window-tools desktop-tools node-tools ## Run every test, and for
 web-test: web gpu-tools browser ## Test the page: its bakes, and its pictures in headless Chromium
 	$(CARGO) build --workspace --all-targets --locked
 	cd web && WELKIN_VIEW=$(CURDIR)/target/debug/welkin-view node --test --test-concurrency=1 test/*.test.mjs
+
+recipes: ## Bake RECIPES random recipes and the default one with SEEDS seeds, and check them all
+	WELKIN_RECIPES=$(RECIPES) WELKIN_SEEDS=$(SEEDS) $(CARGO) test --release --locked -p welkin-baker --test legal -- --nocapture
 
 check: ## Compile and lint, without running anything
 	$(CARGO) fmt --all --check

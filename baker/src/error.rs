@@ -3,6 +3,7 @@
 use std::io;
 
 use welkin_pack::PackError;
+use welkin_pack::check::Finding;
 
 /// Why a recipe was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -111,7 +112,38 @@ pub enum BakeError {
         /// The most.
         limit: usize,
     },
+    /// The pack breaks rules of `welkin check`.
+    #[error("the pack would not be sound: {}", told(faults))]
+    Unsound {
+        /// One or more.
+        faults: Vec<Fault>,
+    },
     /// The images were refused as a pack.
     #[error(transparent)]
     Pack(#[from] PackError),
+}
+
+/// A broken rule of `welkin check`, and what to do about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// The key of the recipe that it leans on most, such as `clouds.noise.mean`.
+    pub key: String,
+    /// What the check found.
+    pub finding: Finding,
+}
+
+fn told(faults: &[Fault]) -> String {
+    let lines = faults.iter().map(|Fault { key, finding }| {
+        let Finding {
+            rule,
+            subject,
+            expected,
+            note,
+            ..
+        } = finding;
+        let figure = finding.figure.map(|figure| format!("{figure:.4}"));
+        let found = figure.as_deref().unwrap_or(note);
+        format!("{rule}: {subject} is {found}, expected {expected}; change `{key}` in the recipe")
+    });
+    lines.collect::<Vec<String>>().join(", ")
 }

@@ -36,6 +36,7 @@ mod resolve;
 mod settings;
 mod sky;
 mod skybox;
+mod sound;
 mod sprites;
 mod stars;
 mod stream;
@@ -45,7 +46,7 @@ pub use bake::{
     Progress, bake, bake_from, cloud_field, photo_channel, skybox_faces, sources, sprite_sheet,
 };
 pub use clouds::photo::BUILT_IN_NAME as BUILT_IN_PHOTO;
-pub use error::{BakeError, RecipeError};
+pub use error::{BakeError, Fault, RecipeError};
 pub use inputs::Inputs;
 pub use load::read_photo;
 pub use recipe::{DEFAULT_RECIPE, Recipe};
@@ -56,3 +57,4 @@ pub use settings::{
     SkyboxPicture, SkyboxSettings, SpriteShape, SpriteSource, SpritesSettings, StarSettings,
     SunSettings,
 };
+pub use sound::{recipe_key, verify};

@@ -182,11 +182,14 @@ pub(crate) struct Faces {
 impl Recipe {
     /// Parses TOML. `file` names the text in errors.
     ///
+    /// Line ends become line feeds and a byte order mark is left out, so that a recipe from Windows makes the same pack.
+    ///
     /// # Errors
     /// [`RecipeError::Syntax`] where the text is not TOML or has a key that no recipe has.
     pub fn parse(file: &str, text: &str) -> Result<Recipe, RecipeError> {
-        let tables = toml::from_str(text).map_err(|e| {
-            let (line, column) = line_and_column(text, e.span().unwrap_or(0..0));
+        let text = normalised(text);
+        let tables = toml::from_str(&text).map_err(|e| {
+            let (line, column) = line_and_column(&text, e.span().unwrap_or(0..0));
             RecipeError::Syntax {
                 file: file.to_string(),
                 line,
@@ -196,7 +199,7 @@ impl Recipe {
         })?;
         Ok(Recipe {
             file: file.to_string(),
-            text: text.to_string(),
+            text,
             tables,
         })
     }
@@ -212,6 +215,12 @@ impl Default for Recipe {
             tables: Tables::default(),
         })
     }
+}
+
+/// The text with line feeds alone, and without a byte order mark: what editors on Windows add is not part of a recipe.
+fn normalised(text: &str) -> String {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    text.replace("\r\n", "\n")
 }
 
 /// Line and column, both from 1 and in characters, of the start of a byte range.

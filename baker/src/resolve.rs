@@ -18,6 +18,17 @@ use crate::settings::{
     PhotoSettings, Resolved, SkySettings, StarSettings, SunSettings,
 };
 
+/// Means of photo and of noise. The power that makes the mean sharpens what is thin and digs pits into what is thick: beyond
+/// these, cells of eight texels are no longer smooth at the texel.
+const SHAPE_MEANS: [f32; 2] = [0.05, 0.68];
+
+/// Means of detail, which may be rougher.
+const DETAIL_MEANS: [f32; 2] = [0.02, 0.8];
+
+/// Mean amount of cloud of the two together, `photo + noise (1 - photo)`, since every value of one drifts over every value
+/// of the other. With less no cover makes an overcast, with more none opens the sky: the rule `cloud-cover` of `check`.
+const AMOUNTS: [f32; 2] = [0.15, 0.7];
+
 impl Recipe {
     /// Fills defaults and checks every value. `seed` overrides the recipe's.
     ///
@@ -74,20 +85,77 @@ impl Recipe {
             gain: 0.5,
             mean: 0.5,
         };
-        Ok(CloudSettings {
+        let settings = CloudSettings {
             size,
             format: self.cloud_format(&c.format)?,
             photo: PhotoSettings {
                 file: self.text_of("clouds.photo.file", &c.photo.file)?,
                 size,
-                mean: self.real("clouds.photo.mean", &c.photo.mean, 0.16, 0.02, 0.9)?,
+                mean: self.mean("clouds.photo.mean", &c.photo.mean, 0.16, SHAPE_MEANS)?,
             },
-            noise: self.fractal("clouds.noise", &c.noise, size, noise)?,
-            detail: self.fractal("clouds.detail", &c.detail, size, detail)?,
+            noise: FractalSettings {
+                mean: self.mean("clouds.noise.mean", &c.noise.mean, noise.mean, SHAPE_MEANS)?,
+                ..self.fractal("clouds.noise", &c.noise, size, noise)?
+            },
+            detail: FractalSettings {
+                mean: self.mean(
+                    "clouds.detail.mean",
+                    &c.detail.mean,
+                    detail.mean,
+                    DETAIL_MEANS,
+                )?,
+                ..self.fractal("clouds.detail", &c.detail, size, detail)?
+            },
             gradient: GradientSettings {
                 power: self.real("clouds.gradient.power", &c.gradient.power, 2.0, 1.0, 2.0)?,
             },
-        })
+        };
+        self.verify_amount(settings.photo.mean, settings.noise.mean)?;
+        Ok(settings)
+    }
+
+    fn mean(
+        &self,
+        key: &str,
+        entry: &Entry,
+        default: f32,
+        [least, most]: [f32; 2],
+    ) -> Result<f32, RecipeError> {
+        self.real(key, entry, default, least, most)
+    }
+
+    /// Refuses photo and noise that together are too thin or too thick for the parameter cover to shut and to open the sky.
+    fn verify_amount(&self, photo: f32, noise: f32) -> Result<(), RecipeError> {
+        let amount = photo + noise * (1.0 - photo);
+        let [least, most] = AMOUNTS;
+        if (least..=most).contains(&amount) {
+            return Ok(());
+        }
+        let c = &self.tables.clouds;
+        let (key, entry, other_key, other) = match &c.noise.mean {
+            Some(entry) => ("clouds.noise.mean", Some(entry), "clouds.photo.mean", photo),
+            None => (
+                "clouds.photo.mean",
+                c.photo.mean.as_ref(),
+                "clouds.noise.mean",
+                noise,
+            ),
+        };
+        // Defaults are in range, so one of the two is given.
+        let Some(entry) = entry else { return Ok(()) };
+        let range = AMOUNTS
+            .map(|amount| ((amount - other) / (1.0 - other)).clamp(SHAPE_MEANS[0], SHAPE_MEANS[1]));
+        // Two digits, rounded inwards, are in range for certain.
+        let [least, most] = [
+            libm::ceilf(100.0 * range[0]),
+            libm::floorf(100.0 * range[1]),
+        ];
+        let expected = format!(
+            "{} to {} with {other_key} = {other}",
+            least / 100.0,
+            most / 100.0
+        );
+        Err(self.refuse(key, entry, expected))
     }
 
     fn fractal(
@@ -109,7 +177,7 @@ impl Recipe {
             )?,
             octaves: self.integer(&key("octaves"), &entry.octaves, default.octaves, 1, 10)?,
             gain: self.real(&key("gain"), &entry.gain, default.gain, 0.0, 1.0)?,
-            mean: self.real(&key("mean"), &entry.mean, default.mean, 0.02, 0.9)?,
+            mean: default.mean,
         })
     }
 

@@ -14,6 +14,9 @@ const DISC_RADIUS: f32 = 0.5;
 /// Half the width of the disc's soft edge, in texels.
 const EDGE_TEXELS: f32 = 1.5;
 
+/// The same at most, in radii of the square: in a small texture the disc still ends where it should.
+const MOST_EDGE: f32 = 0.1;
+
 /// Radius at which the glow's core has fallen to half.
 const GLOW_CORE: f32 = 0.22;
 
@@ -27,7 +30,7 @@ pub(crate) fn image(settings: &SunSettings) -> Image {
             let r = libm::sqrtf(dx * dx + dy * dy);
             image
                 .texel_mut(x, y)
-                .copy_from_slice(&[disc(r, EDGE_TEXELS / half), glow(r)]);
+                .copy_from_slice(&[disc(r, (EDGE_TEXELS / half).min(MOST_EDGE)), glow(r)]);
         }
     }
     image

@@ -17,6 +17,53 @@ fn the_default_recipe_spells_out_the_defaults() {
 }
 
 #[test]
+fn line_ends_and_a_byte_order_mark_are_no_part_of_a_recipe() {
+    let windows = format!("\u{feff}{}", DEFAULT_RECIPE.replace('\n', "\r\n"));
+    assert_eq!(resolve(&windows).unwrap(), resolve(DEFAULT_RECIPE).unwrap());
+    // Places are told as an editor counts them.
+    let error = resolve("\u{feff}seed = 1\r\n\r\nstars.count = -3\r\n").unwrap_err();
+    assert!(
+        error.to_string().starts_with("sky.toml:3:15: stars.count"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_checkout_on_windows_has_the_recipes_as_they_are_here() {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let attributes = std::fs::read_to_string(format!("{root}/.gitattributes")).unwrap();
+    assert!(attributes.lines().any(|line| line == "* text=auto eol=lf"));
+    assert!(!DEFAULT_RECIPE.contains('\r'));
+}
+
+#[test]
+fn photo_and_noise_that_are_too_thin_or_too_thick_together_are_told_by_the_one_to_turn() {
+    for (text, expected) in [
+        (
+            "clouds.photo.mean = 0.05\nclouds.noise.mean = 0.1",
+            "sky.toml:2:21: clouds.noise.mean is 0.1, expected 0.11 to 0.68 with clouds.photo.mean = 0.05",
+        ),
+        (
+            "clouds.photo.mean = 0.58\nclouds.noise.mean = 0.66",
+            "sky.toml:2:21: clouds.noise.mean is 0.66, expected 0.05 to 0.28 with clouds.photo.mean = 0.58",
+        ),
+    ] {
+        assert_eq!(resolve(text).unwrap_err().to_string(), expected);
+    }
+    for means in [
+        [0.05, 0.11],
+        [0.05, 0.68],
+        [0.58, 0.28],
+        [0.16, 0.64],
+        [0.59, 0.26],
+    ] {
+        let [photo, noise] = means;
+        let text = format!("clouds.photo.mean = {photo}\nclouds.noise.mean = {noise}");
+        assert!(resolve(&text).is_ok(), "{text}");
+    }
+}
+
+#[test]
 fn a_given_seed_overrides_the_recipes() {
     let recipe = Recipe::parse("sky.toml", "seed = 3").unwrap();
     assert_eq!(recipe.resolve(None).unwrap().seed, 3);
@@ -107,19 +154,25 @@ fn values_of_the_wrong_type_or_out_of_range_are_told_with_key_and_place() {
             "clouds.photo.mean = nan",
             "clouds.photo.mean",
             "nan",
-            "0.02 to 0.9",
+            "0.05 to 0.68",
         ),
         (
             "clouds.photo.mean = inf",
             "clouds.photo.mean",
             "inf",
-            "0.02 to 0.9",
+            "0.05 to 0.68",
         ),
         (
             "clouds.noise.mean = 1.0",
             "clouds.noise.mean",
             "1.0",
-            "0.02 to 0.9",
+            "0.05 to 0.68",
+        ),
+        (
+            "clouds.photo.mean = 0.6",
+            "clouds.photo.mean",
+            "0.6",
+            "0.05 to 0.59 with clouds.noise.mean = 0.26",
         ),
         (
             "clouds.noise.cells = 65",

@@ -39,6 +39,8 @@ pub fn run(args: &BakeArgs) -> Result<()> {
     let exr = args.exr.as_deref().map(begin).transpose()?;
 
     let pack = with_progress(|on_progress| welkin_baker::bake(&resolved, base, on_progress))?;
+    // A pack that `check` would refuse never appears.
+    welkin_baker::verify(&pack)?;
     png.as_ref()
         .map_or(Ok(()), |folder| add_stored(folder, &pack))?;
     exr.as_ref()

@@ -45,6 +45,18 @@ impl Recipe {
             let span = self.field_span();
             return Err(self.refuse_at("field", span, "without a cloud", expected));
         }
+        // A field has a cloud at least.
+        let covers_nothing =
+            settings.models.is_empty() && settings.layers.iter().all(|l| l.cover == 0.0);
+        let first = f.clouds.as_deref().and_then(<[_]>::first);
+        if let Some(cover) = first.and_then(|layer| layer.get_ref().cover.as_ref())
+            && sections > 0
+            && covers_nothing
+        {
+            let expected =
+                "over 0, up to 1, in one layer at least, or `sections = 0` to leave the field out";
+            return Err(self.refuse("field.clouds[0].cover", cover, expected));
+        }
         Ok((sections > 0).then_some(settings))
     }
 

@@ -67,6 +67,30 @@ fn a_failed_bake_keeps_the_pack_that_force_would_have_replaced() {
 }
 
 #[test]
+fn a_pack_that_check_would_refuse_never_appears() {
+    let desk = Desk::new();
+    let mut bits = 1_u64;
+    let noise = image::GrayImage::from_fn(128, 128, |_, _| {
+        bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        image::Luma([(bits >> 56) as u8])
+    });
+    noise.save(desk.path("noise.png")).unwrap();
+    let text = "clouds.size = 64\nclouds.photo.file = \"noise.png\"\n";
+    let recipe = desk.write("noise.toml", text);
+    let pictures = desk.path("pictures");
+    let more = ["--png", pictures.to_str().unwrap()];
+    bake(&recipe, &desk.path("pack"), &more).failed(
+        1,
+        &[
+            "not be sound",
+            "smooth",
+            "change `clouds.photo.file` in the recipe",
+        ],
+    );
+    assert_eq!(desk.names(), ["noise.png", "noise.toml"]);
+}
+
+#[test]
 fn threads_do_not_change_a_byte_and_seeds_do() {
     let desk = Desk::new();
     let recipe = desk.write("small.toml", SMALL_RECIPE);

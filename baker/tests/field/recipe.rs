@@ -65,6 +65,7 @@ fn values_out_of_range_are_refused_by_key() {
         ("[[field.models]]\nkind = \"cumulus\"\n".to_string(), "field.models[0] is without boxes, expected either `file`"),
         (format!("{BOX}[[field.models]]\nkind = \"cumulus\"\nfile = \"\"\n"), "field.models[1].file is \"\""),
         ("[field]\nclouds = []\n".to_string(), "field is without a cloud"),
+        ("[[field.clouds]]\nkind = \"cirrus\"\ncover = 0.0\n".to_string(), "field.clouds[0].cover is 0.0, expected over 0, up to 1, in one layer at least, or `sections = 0`"),
         ("[field]\nhours = []\n".to_string(), "field.hours is empty"),
         ("[[field.hours]]\ntime = 0.5\n".to_string(), "field.hours[0].colour is missing"),
         ("[[field.hours]]\ncolour = [1, 1, 1]\n".to_string(), "field.hours[0].time is missing"),

@@ -36,7 +36,7 @@ pub use rule::{RULES, Rule, Severity};
 
 use crate::manifest::TextureEntry;
 use crate::read::{in_folder, in_memory};
-use crate::{PackError, Role, Texture};
+use crate::{Manifest, Pack, PackError, Role, Texture};
 use files::Place;
 
 /// Checks the pack in a folder.
@@ -65,22 +65,34 @@ pub fn check_memory(place: &str, files: &BTreeMap<String, Vec<u8>>) -> Result<Re
     })
 }
 
+/// Checks what the textures and the field of a pack mean, as they are in memory.
+///
+/// The rules about files are left out: a [`Pack`] has read its files back, or was read from them. So nothing is decoded
+/// twice.
+pub fn check_pack(pack: &Pack) -> Report {
+    let mut report = Report::default();
+    for (entry, texture) in pack.manifest.textures.iter().zip(&pack.textures) {
+        let claim = Claim::new(&pack.manifest, entry.role);
+        check_role(&mut report, entry.role, texture, claim);
+    }
+    if let Some(field) = &pack.field {
+        field::check(&mut report, field);
+    }
+    report.sort();
+    report
+}
+
 fn check_place(place: Place) -> Result<Report, PackError> {
     let mut report = Report::default();
     let contents = files::check(&mut report, place)?;
-    let manifest = &contents.manifest;
     for (role, texture) in &contents.textures {
-        let claim = Claim {
-            entry: manifest.texture(*role),
-            noon_elevation_rad: Some(manifest.noon_elevation_rad),
-        };
-        check_texture(&mut report, *role, texture, claim);
+        let claim = Claim::new(&contents.manifest, *role);
+        check_role(&mut report, *role, texture, claim);
     }
-    if let Some(clouds) = &contents.field {
-        field::check(&mut report, clouds);
+    if let Some(field) = &contents.field {
+        field::check(&mut report, field);
     }
-    let order = |id: &str| RULES.iter().position(|rule| rule.id == id);
-    report.findings.sort_by_key(|finding| order(finding.rule));
+    report.sort();
     Ok(report)
 }
 
@@ -93,7 +105,17 @@ struct Claim<'a> {
     noon_elevation_rad: Option<f32>,
 }
 
-fn check_texture(report: &mut Report, role: Role, texture: &Texture, claim: Claim) {
+impl Claim<'_> {
+    fn new(manifest: &Manifest, role: Role) -> Claim<'_> {
+        Claim {
+            entry: manifest.texture(role),
+            noon_elevation_rad: Some(manifest.noon_elevation_rad),
+        }
+    }
+}
+
+/// The rules about the texels of a role. The texture is laid out as the role asks, with all levels.
+fn check_role(report: &mut Report, role: Role, texture: &Texture, claim: Claim) {
     if !finite::check(report, role, texture) {
         // No figure of what is not a number means anything.
         return;

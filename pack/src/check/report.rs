@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::rule::{Rule, Severity};
+use super::rule::{RULES, Rule, Severity};
 
 /// How a rule came out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -101,6 +101,12 @@ impl Report {
         let mut text = serde_json::to_string_pretty(&json).unwrap_or_default();
         text.push('\n');
         text
+    }
+
+    /// Puts the findings into the order of [`RULES`].
+    pub(super) fn sort(&mut self) {
+        let order = |id: &str| RULES.iter().position(|rule| rule.id == id);
+        self.findings.sort_by_key(|finding| order(finding.rule));
     }
 
     /// Records a figure and compares it with what it should be.

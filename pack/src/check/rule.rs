@@ -85,7 +85,7 @@ rules! {
     GALAXY_BRIGHTNESS = error("galaxy-brightness", "The galaxy is there, and does not fill the sky.");
     GALAXY_BAND = error("galaxy-band", "The light of the galaxy lies along a great circle.");
     SKY_RANGE = error("sky-range", "Radiance is finite and not negative.");
-    SKY_NIGHT = error("sky-night", "The night share is 0 at noon, 1 at midnight, and never outside 0..1.");
+    SKY_NIGHT = error("sky-night", "The night share is what the sun's elevation lets it be at noon and at midnight, and never outside 0..1.");
     SKY_HOURS = error("sky-hours", "At every time the night share is that of the sun's elevation, and morning is as evening.");
     SKY_COLOUR = error("sky-colour", "The zenith at noon is blue: more green than red, and more blue than green.");
     SKY_DAY = error("sky-day", "Noon is much brighter than midnight, and the horizon at noon brighter than the zenith.");

@@ -7,6 +7,10 @@ use crate::{Image, Role, Texture};
 
 const NAME: &str = Role::Sky.name();
 
+/// How far the sun is below the horizon at most in civil twilight, when one reads without a lamp: a midnight in it is no
+/// night, and only a good deal darker than noon.
+const CIVIL_DEG: f32 = 6.0;
+
 /// `noon_elevation_rad` is what the manifest says, if there is one.
 pub(super) fn check(report: &mut Report, texture: &Texture, noon_elevation_rad: Option<f32>) {
     let image = texture.image(0, 0);
@@ -19,7 +23,7 @@ pub(super) fn check(report: &mut Report, texture: &Texture, noon_elevation_rad: 
         }
         return;
     }
-    check_night(report, &image);
+    check_night(report, &image, noon_elevation_rad);
     check_hours(report, &image, noon_elevation_rad);
     check_colour(report, &image);
     let (noon, midnight) = (image.width / 2, 0);
@@ -30,11 +34,13 @@ pub(super) fn check(report: &mut Report, texture: &Texture, noon_elevation_rad: 
             / f64::from(image.height)
     };
     // A clear sky by day is some ten million times brighter than by night; adapted eyes see far less.
+    let is_night = noon_elevation_rad.is_none_or(|noon| noon.to_degrees() > CIVIL_DEG);
+    let least = if is_night { 8.0 } else { 2.0 };
     report.measure(
         SKY_DAY,
         "noon / midnight",
         mean(noon) / mean(midnight).max(1e-6),
-        Bound::AtLeast(8.0),
+        Bound::AtLeast(least),
     );
     let zenith = luminance(&image, noon, image.height - 1).max(1e-6);
     report.measure(
@@ -46,17 +52,43 @@ pub(super) fn check(report: &mut Report, texture: &Texture, noon_elevation_rad: 
     check_steps(report, &image);
 }
 
-/// The worst of: night at noon, day at midnight, any share outside 0..1.
-fn check_night(report: &mut Report, image: &Image) {
-    let mut worst = 0.0_f32;
-    for y in 0..image.height {
-        worst = worst.max(image.texel(image.width / 2, y)[3].abs());
-        worst = worst.max((1.0 - image.texel(0, y)[3]).abs());
+/// How far the night share is outside of what the sun's elevation lets it be, at noon and at midnight, and of 0..1 at any time.
+///
+/// The sun goes round a great circle, so at midnight it stands as far below the horizon as above it at noon.
+fn check_night(report: &mut Report, image: &Image, noon_elevation_rad: Option<f32>) {
+    let Some(noon_elevation_rad) = noon_elevation_rad else {
+        report.skip(SKY_NIGHT, NAME, "no manifest tells how high the sun stands");
+        return;
+    };
+    let mut worst = 0.0_f64;
+    for (x, elevation_rad) in [
+        (image.width / 2, noon_elevation_rad),
+        (0, -noon_elevation_rad),
+    ] {
+        let [least, most] = night_shares(elevation_rad.to_degrees());
+        for y in 0..image.height {
+            let share = f64::from(image.texel(x, y)[3]);
+            worst = worst.max(least - share).max(share - most);
+        }
     }
-    for share in image.channel(3) {
+    for share in image.channel(3).map(f64::from) {
         worst = worst.max(-share).max(share - 1.0);
     }
-    report.measure(SKY_NIGHT, NAME, f64::from(worst), Bound::AtMost(0.02));
+    report.measure(SKY_NIGHT, NAME, worst, Bound::AtMost(0.02));
+}
+
+/// The least and the greatest share of the night sky that shows with the sun at an elevation.
+///
+/// U.S. Naval Observatory, "Rise, Set, and Twilight Definitions": down to -6 degrees, in civil twilight, only the brightest
+/// stars are seen; from -12 degrees, in astronomical twilight, most are; from -18 degrees the sun adds nothing.
+fn night_shares(elevation_deg: f32) -> [f64; 2] {
+    match elevation_deg {
+        _ if elevation_deg >= 0.0 => [0.0, 0.0],
+        _ if elevation_deg >= -CIVIL_DEG => [0.0, 0.5],
+        _ if elevation_deg >= -12.0 => [0.0, 1.0],
+        _ if elevation_deg > -18.0 => [0.5, 1.0],
+        _ => [1.0, 1.0],
+    }
 }
 
 /// The night share is a function of the sun's elevation, which time and noon give; the sun's way is symmetric about noon.

@@ -13,8 +13,8 @@ use std::path::Path;
 
 use super::{Outcome, RULES, Report, Severity, check, check_memory};
 use crate::manifest::MANIFEST_FILE;
-use crate::test_pack::{Stream, half_float_pack, pack, with, with_texture, write};
-use crate::{Image, Manifest, Pack, Role, Texture, ktx};
+use crate::test_pack::{Stream, half_float_pack, info, pack, sources, with, with_texture, write};
+use crate::{Image, Manifest, Pack, PackInfo, Role, Texture, ktx};
 
 fn check_pack(pack: &Pack) -> Report {
     let folder = tempfile::tempdir().unwrap();
@@ -308,6 +308,32 @@ fn thick_channels_shut_the_sky() {
     assert_errors(&["cloud-cover", "cloud-mean"], &thick);
 }
 
+#[test]
+fn channels_that_never_make_an_overcast_are_an_error() {
+    let thin = with(Role::Clouds, |image| {
+        each_texel(image, |_, _, t| {
+            t[0] = (1.2 * t[0] - 0.4).max(0.0);
+            t[1] = (1.5 * t[1] - 0.6).max(0.0);
+        });
+    });
+    assert_only("cloud-cover", &thin);
+}
+
+#[test]
+fn thin_and_thick_clouds_are_sound_if_cover_can_shut_and_open_the_sky() {
+    for [photo, noise] in [[2.0, 1.0], [0.5, 1.0], [1.0, 0.5], [1.0, 2.0]] {
+        let pack = with(Role::Clouds, |image| {
+            each_texel(image, |_, _, t| {
+                t[0] = libm::powf(t[0], photo);
+                t[1] = libm::powf(t[1], noise);
+            });
+        });
+        let report = check_pack(&pack);
+        let lines: Vec<String> = report.problems().map(ToString::to_string).collect();
+        assert!(report.is_sound(), "{photo} {noise}: {lines:#?}");
+    }
+}
+
 fn with_gradient(curve: impl Fn(f32) -> f32) -> Pack {
     with(Role::Clouds, |image| {
         let last = (image.height - 1) as f32;
@@ -351,6 +377,10 @@ fn faults_of_the_sky_each_have_a_rule() {
         each_texel(image, |_, _, t| t[3] = t[3].max(0.2))
     });
     assert_errors(&["sky-night", "sky-hours"], &starry_noon);
+    let bright_midnight = with(Role::Sky, |image| {
+        each_texel(image, |_, _, t| t[3] = 0.4 * t[3]);
+    });
+    assert_errors(&["sky-night", "sky-hours"], &bright_midnight);
     let white_night = with(Role::Sky, |image| {
         each_texel(image, |_, _, t| t[..3].iter_mut().for_each(|v| *v += 0.2))
     });
@@ -366,6 +396,68 @@ fn faults_of_the_sky_each_have_a_rule() {
     let warned: Vec<_> = report.problems().map(|f| f.rule).collect();
     assert!(report.is_sound());
     assert_eq!(warned, ["sky-step"]);
+}
+
+/// A pack whose sun stands so high at noon, with night shares and light of the sky multiplied at midnight.
+fn with_noon(noon_elevation_deg: f32, night: f32, light: f32) -> Pack {
+    let mut sources = sources();
+    let sky = &mut sources
+        .iter_mut()
+        .find(|s| s.role == Role::Sky)
+        .unwrap()
+        .images[0];
+    let width = sky.width;
+    each_texel(sky, |x, _, t| {
+        let away = x.abs_diff(width / 2) as f32 / (width / 2) as f32;
+        t[..3]
+            .iter_mut()
+            .for_each(|v| *v *= 1.0 + (light - 1.0) * away);
+        t[3] *= night;
+    });
+    let noon_elevation_rad = noon_elevation_deg.to_radians();
+    Pack::build(
+        PackInfo {
+            noon_elevation_rad,
+            ..info()
+        },
+        sources,
+    )
+    .unwrap()
+}
+
+#[test]
+fn night_falls_as_far_as_the_sun_goes_down() {
+    let broken = |pack: &Pack| errors(&check_pack(pack));
+    // In civil twilight no night falls, and midnight is no more than dim.
+    assert_eq!(broken(&with_noon(5.0, 0.0, 10.0)), Vec::<&str>::new());
+    assert_eq!(broken(&with_noon(5.0, 0.3, 1.0)), Vec::<&str>::new());
+    assert_eq!(broken(&with_noon(5.0, 1.0, 1.0)), ["sky-night"]);
+    assert_eq!(broken(&with_noon(15.0, 0.98, 1.0)), Vec::<&str>::new());
+    assert_eq!(broken(&with_noon(15.0, 0.4, 1.0)), ["sky-night"]);
+    assert_eq!(broken(&with_noon(25.0, 0.9, 1.0)), ["sky-night"]);
+    // But a midnight as bright as noon is none.
+    assert_eq!(broken(&with_noon(5.0, 0.0, 80.0)), ["sky-day"]);
+    assert_eq!(broken(&with_noon(25.0, 1.0, 10.0)), ["sky-day"]);
+}
+
+#[test]
+fn a_pack_in_memory_is_found_as_its_files_are() {
+    for pack in [pack(), half_float_pack(), with_noon(5.0, 1.0, 1.0)] {
+        let of_files = check_pack(&pack).findings.into_iter();
+        let files = [
+            "seal",
+            "manifest",
+            "roles",
+            "file-hash",
+            "container",
+            "layout",
+            "texel-hash",
+            "statistics",
+            "field-file",
+        ];
+        let rest: Vec<_> = of_files.filter(|f| !files.contains(&f.rule)).collect();
+        assert_eq!(super::check_pack(&pack).findings, rest);
+    }
 }
 
 #[test]

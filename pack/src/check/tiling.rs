@@ -3,7 +3,7 @@
 use super::report::{Bound, Report};
 use super::rule::{SEAM, SMOOTH};
 use super::subject;
-use crate::{Image, Role, Texture};
+use crate::{Format, Image, Role, Texture};
 
 /// Compares the difference across the edges with the differences inside, on both axes, every level and layer.
 pub(super) fn check_seam(report: &mut Report, role: Role, texture: &Texture, channel: usize) {
@@ -39,7 +39,7 @@ const HALF_STEP: f64 = 0.5 / 255.0;
 /// Compares second differences of neighbouring texels with first ones.
 ///
 /// A wave of `n` texels has the ratio `2 sin(pi / n)`, white noise has sqrt(3). The figure is the ratio of
-/// the root mean squares over both axes, at level 0 of the worst layer.
+/// the root mean squares over both axes, at level 0 of the worst layer, without what rounding makes of second ones.
 pub(super) fn check_smooth(
     report: &mut Report,
     role: Role,
@@ -47,7 +47,8 @@ pub(super) fn check_smooth(
     channel: usize,
     texels_a_wave: f64,
 ) {
-    let ratios = (0..texture.layers).map(|layer| roughness(&texture.image(0, layer), channel));
+    let ratios =
+        (0..texture.layers).map(|i| roughness(&texture.image(0, i), texture.format, channel));
     let most = 2.0 * libm::sin(std::f64::consts::PI / texels_a_wave);
     report.measure(
         SMOOTH,
@@ -57,21 +58,35 @@ pub(super) fn check_smooth(
     );
 }
 
-fn roughness(image: &Image, channel: usize) -> f64 {
+/// The ratio of second to first differences.
+///
+/// Where neighbours differ by less than a step of the format, as in large textures, second differences are mostly
+/// rounding. Errors that are even over a step `s` have the variance `s^2 / 12` and, weighed 1, -2, 1, make
+/// `(1 + 4 + 1) s^2 / 12` of a squared second difference: half a step squared. On a slope of `d` steps a texel errors
+/// follow each other and make `2 min(d, 1 - d)` steps squared, which is the same half over all slopes. That much is taken
+/// off. Noise of the texels themselves stays: of a third of a step it is as strong as rounding, and no picture can be
+/// smoother than its rounding.
+fn roughness(image: &Image, format: Format, channel: usize) -> f64 {
     let (mut first, mut second) = (0.0, 0.0);
     let (width, height) = (image.width, image.height);
     let at = |x: u32, y: u32| f64::from(image.texel(x % width, y % height)[channel]);
     for y in 0..height {
         for x in 0..width {
+            let here = image.texel(x, y)[channel];
+            let step = 2.0 * f64::from(format.quantisation_error(here));
             for (dx, dy) in [(1, 0), (0, 1)] {
-                let (a, b, c) = (at(x, y), at(x + dx, y + dy), at(x + 2 * dx, y + 2 * dy));
+                let (a, b, c) = (
+                    f64::from(here),
+                    at(x + dx, y + dy),
+                    at(x + 2 * dx, y + 2 * dy),
+                );
                 first += (b - a) * (b - a);
-                second += (c - 2.0 * b + a) * (c - 2.0 * b + a);
+                second += (c - 2.0 * b + a) * (c - 2.0 * b + a) - 0.5 * step * step;
             }
         }
     }
     if first > 0.0 {
-        libm::sqrt(second / first)
+        libm::sqrt(second.max(0.0) / first)
     } else {
         0.0
     }
@@ -110,4 +125,49 @@ fn differences(image: &Image, channel: usize, axis: Axis) -> (Vec<f64>, f64) {
     };
     let inside = (1..length).map(|i| difference(i - 1, i)).collect();
     (inside, difference(length - 1, 0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texture::{decode, encode};
+
+    /// Waves of several slopes, from a hundredth of a step of a byte to a whole one a texel, and noise, stored.
+    fn stored(format: Format, slope: f32, noise: f32) -> Image {
+        let size = 256;
+        let mut image = Image::new(size, size, 4);
+        let turn = |i: u32, waves: u32| std::f32::consts::TAU * (i * waves) as f32 / size as f32;
+        let mut bits = 1_u64;
+        for (i, texel) in (0..).zip(image.texels.chunks_exact_mut(4)) {
+            let (x, y) = (i % size, i / size);
+            let wave = libm::sinf(turn(x, 1)) + libm::cosf(turn(y, 1) + 1.0);
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let even = (bits >> 40) as f32 / 16_777_216.0 - 0.5;
+            // A wave of one cycle falls by 2 pi over the size a texel at most.
+            let amplitude = slope * size as f32 / std::f32::consts::TAU;
+            texel.fill((amplitude * wave + 2.0 * noise * even) / 255.0 + 0.502);
+        }
+        image.texels = decode(format, &encode(format, &image.texels));
+        image
+    }
+
+    #[test]
+    fn what_is_smooth_stays_smooth_however_fine_its_texels_are() {
+        for slope in [0.01, 0.03, 0.1, 0.2, 0.4, 0.6, 1.0] {
+            for format in [Format::Rgba8Unorm, Format::Rgba16Float] {
+                let found = roughness(&stored(format, slope, 0.0), format, 0);
+                assert!(found < 0.9, "{format:?} {slope}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn noise_of_one_step_is_seen_in_the_finest_texels() {
+        for slope in [0.01, 0.1, 0.4] {
+            let format = Format::Rgba8Unorm;
+            // Even over two steps, so of 0.58 steps: twice what rounding adds.
+            let found = roughness(&stored(format, slope, 1.0), format, 0);
+            assert!(found > 1.1, "{slope}: {found}");
+        }
+    }
 }

@@ -1,6 +1,5 @@
 //! Baking in the background: the newest job wins, and what it makes is sound or is not handed over.
 
-use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -8,7 +7,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::{Context, Result, bail};
 use welkin_baker::Recipe;
-use welkin_pack::check::check_memory;
 use welkin_pack::{Overwrite, Pack};
 use winit::event_loop::EventLoopProxy;
 
@@ -116,16 +114,10 @@ fn bake(
 /// The warnings of `welkin check` about a pack.
 ///
 /// # Errors
-/// What it finds wrong: then the pack is not sound.
+/// The key of the recipe to turn, if the pack is not sound.
 fn checked(pack: &Pack) -> Result<Vec<String>> {
-    let files: BTreeMap<String, Vec<u8>> = pack.files().iter().cloned().collect();
-    let report = check_memory("the new pack", &files)?;
-    let problems = report.problems().map(ToString::to_string);
-    let problems: Vec<String> = problems.collect();
-    if !report.is_sound() {
-        bail!("the new pack is not sound: {}", problems.join("; "));
-    }
-    Ok(problems)
+    let report = welkin_baker::verify(pack)?;
+    Ok(report.problems().map(ToString::to_string).collect())
 }
 
 fn read(job: &Job) -> Result<Recipe> {
