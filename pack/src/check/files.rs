@@ -24,7 +24,14 @@ pub(super) struct Place<'a> {
 }
 
 /// What could be read of a pack.
-type Contents = (Vec<(Role, Texture)>, Option<Field>);
+pub(super) struct Contents {
+    /// The manifest, sound or not.
+    pub manifest: Manifest,
+    /// The textures that decode and are laid out as their role asks.
+    pub textures: Vec<(Role, Texture)>,
+    /// The field of clouds, if it decodes.
+    pub field: Option<Field>,
+}
 
 /// Checks the files and gives the textures that could be decoded and are laid out as their role asks, and the field of
 /// clouds.
@@ -47,14 +54,23 @@ pub(super) fn check(report: &mut Report, place: Place) -> Result<Contents, PackE
         if manifest.field.is_some() {
             report.skip(FIELD_FILE, field::SUBJECT, "the manifest is not sound");
         }
-        return Ok((Vec::new(), None));
+        return Ok(Contents {
+            manifest,
+            textures: Vec::new(),
+            field: None,
+        });
     }
     let textures = manifest.textures.iter();
     let textures = textures
         .filter_map(|entry| Some((entry.role, check_entry(report, place, entry)?)))
         .collect();
     let entry = manifest.field.as_ref();
-    Ok((textures, entry.and_then(|e| check_field(report, place, e))))
+    let field = entry.and_then(|e| check_field(report, place, e));
+    Ok(Contents {
+        manifest,
+        textures,
+        field,
+    })
 }
 
 fn check_field(report: &mut Report, place: Place, entry: &FieldEntry) -> Option<Field> {

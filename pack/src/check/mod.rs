@@ -25,6 +25,7 @@ mod sun;
 #[cfg(test)]
 #[cfg(feature = "write")]
 mod tests;
+mod texture;
 mod tiling;
 
 use std::collections::BTreeMap;
@@ -32,9 +33,11 @@ use std::path::Path;
 
 pub use report::{Finding, Outcome, Report};
 pub use rule::{RULES, Rule, Severity};
+pub use spectrum::radial_spectrum;
+pub use texture::check_texture;
 
 use crate::read::{in_folder, in_memory};
-use crate::{PackError, Role, Texture};
+use crate::{Field, Manifest, PackError, Role, Texture};
 use files::Place;
 
 /// Checks the pack in a folder.
@@ -43,8 +46,29 @@ use files::Place;
 /// [`PackError`] if the manifest cannot be read at all: then there is nothing to check. Everything else
 /// that is wrong, a damaged texture too, is in the report.
 pub fn check(folder: impl AsRef<Path>) -> Result<Report, PackError> {
+    Ok(examine(folder)?.report)
+}
+
+/// A pack that was checked: what was found, and what could be read of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Examined {
+    /// What was found.
+    pub report: Report,
+    /// The manifest, whether it is sound or not.
+    pub manifest: Manifest,
+    /// The textures that decode and are laid out as their role asks, in the order of the manifest.
+    pub textures: Vec<(Role, Texture)>,
+    /// The field of clouds, if the pack has one that decodes.
+    pub field: Option<Field>,
+}
+
+/// Checks the pack in a folder as [`check`] does, and gives what it read too.
+///
+/// # Errors
+/// As [`check`].
+pub fn examine(folder: impl AsRef<Path>) -> Result<Examined, PackError> {
     let folder = folder.as_ref();
-    check_place(Place {
+    examine_place(Place {
         name: &folder.display().to_string(),
         read: &|name, limit| in_folder(folder, name, limit),
     })
@@ -57,27 +81,37 @@ pub fn check(folder: impl AsRef<Path>) -> Result<Report, PackError> {
 /// # Errors
 /// As [`check`].
 pub fn check_memory(place: &str, files: &BTreeMap<String, Vec<u8>>) -> Result<Report, PackError> {
-    check_place(Place {
+    let examined = examine_place(Place {
         name: place,
         read: &|name, limit| in_memory(place, files, name, limit),
-    })
+    })?;
+    Ok(examined.report)
 }
 
-fn check_place(place: Place) -> Result<Report, PackError> {
+fn examine_place(place: Place) -> Result<Examined, PackError> {
     let mut report = Report::default();
-    let (textures, clouds) = files::check(&mut report, place)?;
+    let files::Contents {
+        manifest,
+        textures,
+        field: clouds,
+    } = files::check(&mut report, place)?;
     for (role, texture) in &textures {
-        check_texture(&mut report, *role, texture);
+        check_role(&mut report, *role, texture);
     }
     if let Some(clouds) = &clouds {
         field::check(&mut report, clouds);
     }
-    let order = |id: &str| RULES.iter().position(|rule| rule.id == id);
-    report.findings.sort_by_key(|finding| order(finding.rule));
-    Ok(report)
+    report.sort();
+    Ok(Examined {
+        report,
+        manifest,
+        textures,
+        field: clouds,
+    })
 }
 
-fn check_texture(report: &mut Report, role: Role, texture: &Texture) {
+/// The rules about the texels of a role. The texture is laid out as the role asks, with all levels.
+fn check_role(report: &mut Report, role: Role, texture: &Texture) {
     mips::check(report, role, texture);
     match role {
         Role::Clouds => clouds::check(report, texture),

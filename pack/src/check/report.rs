@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::rule::{Rule, Severity};
+use super::rule::{RULES, Rule, Severity};
 
 /// How a rule came out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -42,6 +42,11 @@ impl Finding {
     pub fn is_error(&self) -> bool {
         self.outcome == Outcome::Failed && self.severity == Severity::Error
     }
+
+    /// The figure as reports print it: a whole number, or four digits after the point.
+    pub fn figure_text(&self) -> Option<String> {
+        self.figure.map(short)
+    }
 }
 
 impl fmt::Display for Finding {
@@ -54,8 +59,8 @@ impl fmt::Display for Finding {
             (Outcome::Failed, Severity::Warning) => "warning",
         };
         write!(f, "{outcome:<8} {:<18} {:<18}", self.rule, self.subject)?;
-        if let Some(figure) = self.figure {
-            write!(f, " {:<10}", short(figure))?;
+        if let Some(figure) = self.figure_text() {
+            write!(f, " {figure:<10}")?;
         }
         if !self.expected.is_empty() {
             write!(f, " expected {}", self.expected)?;
@@ -101,6 +106,12 @@ impl Report {
         let mut text = serde_json::to_string_pretty(&json).unwrap_or_default();
         text.push('\n');
         text
+    }
+
+    /// Puts the findings into the order of [`RULES`].
+    pub(super) fn sort(&mut self) {
+        let order = |id: &str| RULES.iter().position(|rule| rule.id == id);
+        self.findings.sort_by_key(|finding| order(finding.rule));
     }
 
     /// Records a figure and compares it with what it should be.
