@@ -43,7 +43,7 @@ impl Finding {
         self.outcome == Outcome::Failed && self.severity == Severity::Error
     }
 
-    /// The figure as reports print it: a whole number, or four digits after the point.
+    /// The figure as reports print it: a whole number, or four digits after the point, or two digits and a power of ten.
     pub fn figure_text(&self) -> Option<String> {
         self.figure.map(short)
     }
@@ -75,6 +75,8 @@ impl fmt::Display for Finding {
 fn short(figure: f64) -> String {
     if figure == figure.trunc() && figure.abs() < 1e9 {
         format!("{figure}")
+    } else if figure.abs() < 1e-3 {
+        format!("{figure:.1e}")
     } else {
         format!("{figure:.4}")
     }
