@@ -121,7 +121,7 @@ pub fn failed(report: &Report) -> String {
 pub fn table<'a>(findings: impl Iterator<Item = &'a Finding>) -> String {
     let subject = |f: &'a Finding| match channel(f) {
         Some(_) => f.subject.split_once(' ').map_or("", |(_, rest)| rest),
-        None => &f.subject,
+        None => f.subject.as_str(),
     };
     let rows: String = findings.map(|f| row(f, &escaped(subject(f)))).collect();
     match rows.as_str() {

@@ -12,6 +12,9 @@ const UNIT_M: f32 = 10.0;
 /// Most sprites that are drawn one by one from the south, too.
 const MOST_TWICE: usize = 20_000;
 
+/// The highest place that is drawn: no cloud is as high, but a broken field may say anything.
+const HIGHEST_M: f32 = 30_000.0;
+
 /// Covers at which the field is shown from above.
 const COVERS: [f32; 3] = [0.25, 0.5, 1.0];
 
@@ -42,8 +45,8 @@ fn from_above(field: &Field) -> String {
     let mut least = f32::NEG_INFINITY;
     for (index, cover) in COVERS.into_iter().enumerate() {
         let is_new = |cloud: &&Cloud| cloud.rank > least && cloud.rank <= cover;
-        let clouds = || field.clouds.iter().filter(is_new);
-        let new: String = clouds()
+        let clouds = field.clouds.iter().filter(is_new);
+        let new: String = clouds
             .map(|c| drawn(c, project, true) + &framed(c, project))
             .collect();
         let count = field.clouds.iter().filter(|c| c.rank <= cover).count();
@@ -71,7 +74,7 @@ fn from_the_south(field: &Field) -> String {
         .clouds
         .iter()
         .map(|c| c.centre_m[1] + 0.5 * c.size_m[1]);
-    let top_m = tops.fold(1000.0, f32::max);
+    let top_m = tops.fold(1000.0, f32::max).min(HIGHEST_M);
     let height = libm::ceilf(top_m / 1000.0) * 1000.0 / UNIT_M;
     let project: Project = |at| [at[0] / UNIT_M, -at[1] / UNIT_M];
     let each = field.sprite_count() <= MOST_TWICE;
