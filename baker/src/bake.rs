@@ -24,6 +24,9 @@ pub struct Progress {
     pub total: u32,
 }
 
+/// What a manifest calls this program.
+pub(crate) const BAKER: &str = concat!("welkin ", env!("CARGO_PKG_VERSION"));
+
 /// Called before each step and at the end; [`ControlFlow::Break`] cancels the bake.
 type OnProgress<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
 
@@ -64,7 +67,7 @@ pub fn bake_from(
     let info = PackInfo {
         name: resolved.name.clone(),
         seed: resolved.seed,
-        baker: concat!("welkin ", env!("CARGO_PKG_VERSION")).to_string(),
+        baker: BAKER.to_string(),
         recipe: resolved.recipe.clone(),
         inputs: files.inputs(),
         noon_elevation_rad: resolved.sun.noon_elevation_rad,

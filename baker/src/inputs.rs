@@ -15,6 +15,8 @@ pub enum Inputs<'a> {
     Folder(Option<&'a Path>),
     /// From memory, by the names that the recipe gives them.
     Memory(&'a BTreeMap<String, Vec<u8>>),
+    /// From memory, by their keys in the recipe, such as `clouds.photo.file`. No path is looked at.
+    Keys(&'a BTreeMap<String, Vec<u8>>),
 }
 
 /// A file that a recipe names.
@@ -35,13 +37,17 @@ impl Inputs<'_> {
                 let path = place(base, file, key)?;
                 (path.display().to_string(), read_file(&path, key)?)
             }
-            Inputs::Memory(files) => {
+            Inputs::Memory(files) | Inputs::Keys(files) => {
+                let name = match self {
+                    Inputs::Keys(_) => key,
+                    _ => file,
+                };
                 let missing = || BakeError::Read {
                     file: file.to_string(),
                     key: key.to_string(),
                     source: io::Error::new(io::ErrorKind::NotFound, "it was not given"),
                 };
-                let bytes = files.get(file).ok_or_else(missing)?;
+                let bytes = files.get(name).ok_or_else(missing)?;
                 verify_bytes(file, bytes)?;
                 (file.to_string(), bytes.clone())
             }
@@ -83,6 +89,18 @@ pub(crate) fn read_file(path: &Path, key: &str) -> Result<Vec<u8>, BakeError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn files_by_their_keys_have_any_name_in_the_recipe() {
+        let files = BTreeMap::from([("sprites.file".to_string(), vec![3])]);
+        let inputs = Inputs::Keys(&files);
+        let picture = inputs.read("/no/such/file.png", "sprites.file").unwrap();
+        assert_eq!(
+            (picture.bytes, picture.file),
+            (vec![3], "/no/such/file.png".to_string())
+        );
+        assert!(inputs.read("sprites.file", "skybox.file").is_err());
+    }
 
     #[test]
     fn memory_gives_what_it_has_by_its_name() {

@@ -31,6 +31,7 @@ mod lattice;
 mod layers;
 mod load;
 mod octaves;
+mod rebake;
 mod recipe;
 mod resolve;
 mod settings;
@@ -48,7 +49,8 @@ pub use bake::{
 pub use clouds::photo::BUILT_IN_NAME as BUILT_IN_PHOTO;
 pub use error::{BakeError, Fault, RecipeError};
 pub use inputs::Inputs;
-pub use load::read_photo;
+pub use load::{TextureFile, decode_texture, read_photo};
+pub use rebake::{REBAKE, RebakeError, rebake};
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
     BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound, FieldSettings,

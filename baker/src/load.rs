@@ -6,6 +6,7 @@
 mod exr;
 mod hdr;
 mod sky;
+mod texture;
 
 use std::io::Cursor;
 use std::path::Path;
@@ -17,6 +18,7 @@ use crate::error::BakeError;
 use crate::inputs::read_file;
 
 pub(crate) use sky::decode_sky;
+pub use texture::{TextureFile, decode_texture};
 
 /// The largest file that is read, in bytes: an 8192x8192 PNG of noise is smaller.
 pub(crate) const MAX_FILE_BYTES: u64 = 256 << 20;

@@ -15,7 +15,6 @@ pub mod layer_kind;
 pub mod limits;
 pub mod manifest;
 pub mod mapping;
-#[cfg(feature = "write")]
 mod mip;
 pub mod pack;
 #[cfg(test)]

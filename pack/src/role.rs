@@ -181,6 +181,49 @@ impl Role {
         }
     }
 
+    /// Compares the layout of a texture with what the role asks: format, shape, size, levels and the bytes of each. A texture
+    /// may have level 0 alone where the role asks for more. `file` names it in errors.
+    ///
+    /// # Errors
+    /// [`PackError::Value`].
+    pub fn verify_texture(self, file: &str, texture: &Texture) -> Result<(), PackError> {
+        let spec = self.spec();
+        let bad = |key: &str, found: String, expected: String| {
+            Err(PackError::value(file, key, found, expected))
+        };
+        if !spec.formats.contains(&texture.format) {
+            let allowed: Vec<_> = spec.formats.iter().map(|f| f.name()).collect();
+            let found = texture.format.name().to_string();
+            return bad("format", found, allowed.join(" or "));
+        }
+        if texture.shape != spec.shape {
+            let found = texture.shape.name().to_string();
+            return bad("shape", found, spec.shape.name().to_string());
+        }
+        let size = [texture.width, texture.height, texture.layers];
+        spec.verify_size(file, "", size)?;
+        let (found, all) = (
+            texture.levels.len(),
+            spec.mips.count(texture.width, texture.height),
+        );
+        if found != all && found != 1 {
+            let expected = format!("{all}, or level 0 alone");
+            return bad("levels", found.to_string(), expected);
+        }
+        for (level, bytes) in texture.levels.iter().enumerate() {
+            let expected = texture.level_bytes(level);
+            if bytes.len() != expected {
+                let found = format!("{} bytes", bytes.len());
+                return bad(
+                    &format!("level {level}"),
+                    found,
+                    format!("{expected} bytes"),
+                );
+            }
+        }
+        Ok(())
+    }
+
     /// The file that holds it in a pack.
     pub fn file(self) -> String {
         format!("{}.ktx2", self.name())

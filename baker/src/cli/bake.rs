@@ -110,7 +110,9 @@ fn read_recipe(path: &Path) -> Result<Recipe> {
 }
 
 /// Shows a bar on a terminal and nothing elsewhere; passes interruptions on.
-fn with_progress<T>(work: impl FnOnce(&(dyn Fn(Progress) -> ControlFlow<()> + Sync)) -> T) -> T {
+pub fn with_progress<T>(
+    work: impl FnOnce(&(dyn Fn(Progress) -> ControlFlow<()> + Sync)) -> T,
+) -> T {
     let bar = ProgressBar::new(0);
     if let Ok(style) = ProgressStyle::with_template("{bar:24} {pos}/{len} {msg}") {
         bar.set_style(style);

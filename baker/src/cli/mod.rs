@@ -7,6 +7,7 @@ mod handover;
 mod info;
 mod interrupt;
 mod output;
+mod page;
 mod photo;
 mod picture;
 mod preview;
@@ -33,8 +34,8 @@ pub struct Cli {
 enum Command {
     /// Bake a pack from a recipe, or from the built-in one
     Bake(BakeArgs),
-    /// Validate a pack: exit code 0 sound, 1 problems found, 2 cannot be read
-    Check(PackArgs),
+    /// Validate a pack, or a texture before it is in one: exit code 0 sound, 1 problems found, 2 cannot be read
+    Check(CheckArgs),
     /// Tell what is in a pack: textures, channels, bytes, hashes
     Info(PackArgs),
     /// Draw every channel of every texture on one labelled sheet
@@ -85,6 +86,31 @@ struct PackArgs {
     /// Print JSON
     #[arg(long)]
     json: bool,
+}
+
+#[derive(Debug, Args)]
+struct CheckArgs {
+    /// Folder of the pack; with --as a PNG, OpenEXR or KTX2 file
+    #[arg(value_name = "PACK")]
+    path: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    /// Also bake the pack's recipe anew and compare every texel: proof, not statistics
+    #[arg(long)]
+    rebake: bool,
+    /// For --rebake: the photograph of clouds that the recipe names
+    #[arg(long, value_name = "FILE", requires = "rebake")]
+    photo: Option<PathBuf>,
+    /// For --rebake: another file that the recipe names, by its key, such as skybox.file=sky.exr; once for each
+    #[arg(long, value_name = "KEY=FILE", requires = "rebake", value_parser = check::parse_input)]
+    input: Vec<(String, OsString)>,
+    /// Also write a page to look at: every channel beside what was found in it; a file of that name is replaced
+    #[arg(long, value_name = "FILE.html")]
+    html: Option<PathBuf>,
+    /// Check a texture that is in no pack: a role such as clouds or stars, or one channel such as clouds.noise
+    #[arg(long = "as", value_name = "ROLE", conflicts_with = "rebake", value_parser = check::parse_as)]
+    role: Option<check::As>,
 }
 
 #[derive(Debug, Args)]

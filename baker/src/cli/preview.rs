@@ -123,7 +123,7 @@ fn skybox(texture: &Texture, entry: &TextureEntry) -> Vec<Section> {
 }
 
 /// Radiance as a colour picture; `texel` says where a pixel's channels are.
-fn in_colour<'a>(image: &Image, texel: impl Fn(u32, u32) -> &'a [f32]) -> RgbImage {
+pub fn in_colour<'a>(image: &Image, texel: impl Fn(u32, u32) -> &'a [f32]) -> RgbImage {
     RgbImage::from_fn(image.width, image.height, |x, y| {
         let texel = texel(x, y);
         Rgb([texel[0], texel[1], texel[2]].map(display))
@@ -131,14 +131,22 @@ fn in_colour<'a>(image: &Image, texel: impl Fn(u32, u32) -> &'a [f32]) -> RgbIma
 }
 
 /// Most stars are so faint that only the cube root of their light shows on paper.
-fn channel_panel(entry: &TextureEntry, image: &Image, index: usize, channel: &Channel) -> Panel {
-    let is_star_light =
-        entry.role == Role::Stars && ["intensity", "variance"].contains(&channel.name.as_str());
-    let curve = if is_star_light {
+pub fn is_star_light(role: Role, channel: &str) -> bool {
+    role == Role::Stars && ["intensity", "variance"].contains(&channel)
+}
+
+/// How a channel is shown: the cube root of the light of stars, all else as it is.
+pub fn curve(role: Role, channel: &str) -> fn(f32) -> f32 {
+    if is_star_light(role, channel) {
         libm::cbrtf
     } else {
         |value| value
-    };
+    }
+}
+
+fn channel_panel(entry: &TextureEntry, image: &Image, index: usize, channel: &Channel) -> Panel {
+    let is_star_light = is_star_light(entry.role, &channel.name);
+    let curve = curve(entry.role, &channel.name);
     let grey: Vec<u8> = image
         .channel(index)
         .map(|value| unorm8(curve(value)))

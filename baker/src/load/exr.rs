@@ -26,16 +26,7 @@ pub(super) fn decode(
     file: &str,
     fits: &dyn Fn(u32, u32) -> Result<(), BakeError>,
 ) -> Result<Image, BakeError> {
-    let failed = |error: Error| {
-        let found = match error {
-            Error::NotSupported(what) => format!("not supported ({what})"),
-            Error::Io(e) => format!("broken ({e})"),
-            Error::Invalid(what) => format!("broken ({what})"),
-            Error::Aborted => "broken".to_string(),
-        };
-        let expected = "a whole OpenEXR file, best with ZIP compression; save or copy it again";
-        unfit(file, "content", found, expected)
-    };
+    let failed = |error| failed(file, error);
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(failed)?;
     let Some(header) = meta.headers.iter().find(|header| has_colours(header)) else {
         return Err(unfit(
@@ -65,12 +56,24 @@ pub(super) fn decode(
     Ok(picture.layer_data.channel_data.pixels)
 }
 
+/// An error of the decoder.
+pub(super) fn failed(file: &str, error: Error) -> BakeError {
+    let found = match error {
+        Error::NotSupported(what) => format!("not supported ({what})"),
+        Error::Io(e) => format!("broken ({e})"),
+        Error::Invalid(what) => format!("broken ({what})"),
+        Error::Aborted => "broken".to_string(),
+    };
+    let expected = "a whole OpenEXR file, best with ZIP compression; save or copy it again";
+    unfit(file, "content", found, expected)
+}
+
 fn has_colours(header: &Header) -> bool {
     let has = |name: &str| header.channels.list.iter().any(|c| c.name.eq(name));
     !header.deep && ["R", "G", "B"].into_iter().all(has)
 }
 
-fn channel_names(headers: &[Header]) -> String {
+pub(super) fn channel_names(headers: &[Header]) -> String {
     const MOST: usize = 8;
     let names = headers.iter().flat_map(|header| &header.channels.list);
     let mut names: Vec<String> = names.take(MOST + 1).map(|c| c.name.to_string()).collect();
@@ -81,7 +84,7 @@ fn channel_names(headers: &[Header]) -> String {
 }
 
 /// Refuses what would come out wrong without a word: a part of a picture, and other primaries.
-fn verify(header: &Header, file: &str) -> Result<(), BakeError> {
+pub(super) fn verify(header: &Header, file: &str) -> Result<(), BakeError> {
     let shared = &header.shared_attributes;
     let window = shared.display_window;
     let (size, place) = (header.layer_size, header.own_attributes.layer_position);

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod bake;
+mod check;
 mod disk;
 mod field;
 mod handover;

@@ -23,16 +23,13 @@ pub(super) struct Place<'a> {
     pub read: Read<'a>,
 }
 
-/// What could be read of a pack.
-pub(super) struct Contents {
-    pub manifest: Manifest,
-    /// The textures that could be decoded and are laid out as their role asks.
-    pub textures: Vec<(Role, Texture)>,
-    pub field: Option<Field>,
-}
-
-/// Checks the files and gives what they hold.
-pub(super) fn check(report: &mut Report, place: Place) -> Result<Contents, PackError> {
+/// Checks the files. Each texture that could be decoded and is laid out as its role asks is handed to `each`, so that there
+/// is one at a time. Gives the manifest, sound or not, and the field of clouds, if it could be read.
+pub(super) fn check(
+    report: &mut Report,
+    place: Place,
+    mut each: impl FnMut(&mut Report, &Manifest, Role, Texture),
+) -> Result<(Manifest, Option<Field>), PackError> {
     let bytes = (place.read)(MANIFEST_FILE, MAX_MANIFEST_BYTES)?;
     let file = join(place.name, MANIFEST_FILE);
     let manifest = Manifest::parse(&file, &bytes)?;
@@ -51,23 +48,16 @@ pub(super) fn check(report: &mut Report, place: Place) -> Result<Contents, PackE
         if manifest.field.is_some() {
             report.skip(FIELD_FILE, field::SUBJECT, "the manifest is not sound");
         }
-        return Ok(Contents {
-            manifest,
-            textures: Vec::new(),
-            field: None,
-        });
+        return Ok((manifest, None));
     }
-    let textures = manifest.textures.iter();
-    let textures = textures
-        .filter_map(|entry| Some((entry.role, check_entry(report, place, entry)?)))
-        .collect();
-    let field = manifest.field.as_ref();
-    let field = field.and_then(|entry| check_field(report, place, entry));
-    Ok(Contents {
-        textures,
-        field,
-        manifest,
-    })
+    for entry in &manifest.textures {
+        if let Some(texture) = check_entry(report, place, entry) {
+            each(report, &manifest, entry.role, texture);
+        }
+    }
+    let entry = manifest.field.as_ref();
+    let field = entry.and_then(|entry| check_field(report, place, entry));
+    Ok((manifest, field))
 }
 
 fn check_field(report: &mut Report, place: Place, entry: &FieldEntry) -> Option<Field> {

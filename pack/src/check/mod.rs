@@ -26,6 +26,7 @@ mod sun;
 #[cfg(test)]
 #[cfg(feature = "write")]
 mod tests;
+mod texture;
 mod tiling;
 
 use std::collections::BTreeMap;
@@ -33,10 +34,12 @@ use std::path::Path;
 
 pub use report::{Finding, Outcome, Report};
 pub use rule::{RULES, Rule, Severity};
+pub use spectrum::radial_spectrum;
+pub use texture::check_texture;
 
 use crate::manifest::TextureEntry;
 use crate::read::{in_folder, in_memory};
-use crate::{Manifest, Pack, PackError, Role, Texture};
+use crate::{Field, Manifest, Pack, PackError, Role, Texture};
 use files::Place;
 
 /// Checks the pack in a folder.
@@ -46,9 +49,44 @@ use files::Place;
 /// that is wrong, a damaged texture too, is in the report.
 pub fn check(folder: impl AsRef<Path>) -> Result<Report, PackError> {
     let folder = folder.as_ref();
-    check_place(Place {
+    let place = Place {
         name: &folder.display().to_string(),
         read: &|name, limit| in_folder(folder, name, limit),
+    };
+    Ok(check_place(place, |_, _| ())?.0)
+}
+
+/// A pack that was checked: what was found, and what could be read of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Examined {
+    /// What was found.
+    pub report: Report,
+    /// The manifest, whether it is sound or not.
+    pub manifest: Manifest,
+    /// The textures that decode and are laid out as their role asks, in the order of the manifest.
+    pub textures: Vec<(Role, Texture)>,
+    /// The field of clouds, if the pack has one that decodes.
+    pub field: Option<Field>,
+}
+
+/// Checks the pack in a folder as [`check`] does, and gives what it read too.
+///
+/// # Errors
+/// As [`check`].
+pub fn examine(folder: impl AsRef<Path>) -> Result<Examined, PackError> {
+    let folder = folder.as_ref();
+    let place = Place {
+        name: &folder.display().to_string(),
+        read: &|name, limit| in_folder(folder, name, limit),
+    };
+    let mut textures = Vec::new();
+    let (report, manifest, field) =
+        check_place(place, |role, texture| textures.push((role, texture)))?;
+    Ok(Examined {
+        report,
+        manifest,
+        textures,
+        field,
     })
 }
 
@@ -59,10 +97,11 @@ pub fn check(folder: impl AsRef<Path>) -> Result<Report, PackError> {
 /// # Errors
 /// As [`check`].
 pub fn check_memory(place: &str, files: &BTreeMap<String, Vec<u8>>) -> Result<Report, PackError> {
-    check_place(Place {
+    let place = Place {
         name: place,
         read: &|name, limit| in_memory(place, files, name, limit),
-    })
+    };
+    Ok(check_place(place, |_, _| ())?.0)
 }
 
 /// Checks what the textures and the field of a pack mean, as they are in memory.
@@ -82,18 +121,21 @@ pub fn check_pack(pack: &Pack) -> Report {
     report
 }
 
-fn check_place(place: Place) -> Result<Report, PackError> {
+/// `keep` gets every texture that was looked at; whoever does not keep them has one in memory at a time.
+fn check_place(
+    place: Place,
+    mut keep: impl FnMut(Role, Texture),
+) -> Result<(Report, Manifest, Option<Field>), PackError> {
     let mut report = Report::default();
-    let contents = files::check(&mut report, place)?;
-    for (role, texture) in &contents.textures {
-        let claim = Claim::new(&contents.manifest, *role);
-        check_role(&mut report, *role, texture, claim);
-    }
-    if let Some(field) = &contents.field {
+    let (manifest, field) = files::check(&mut report, place, |report, manifest, role, texture| {
+        check_role(report, role, &texture, Claim::new(manifest, role));
+        keep(role, texture);
+    })?;
+    if let Some(field) = &field {
         field::check(&mut report, field);
     }
     report.sort();
-    Ok(report)
+    Ok((report, manifest, field))
 }
 
 /// What a manifest says that rules rely on; nothing of a texture that is in no pack.

@@ -42,6 +42,11 @@ impl Finding {
     pub fn is_error(&self) -> bool {
         self.outcome == Outcome::Failed && self.severity == Severity::Error
     }
+
+    /// The figure as reports print it: a whole number, or four digits after the point, or two digits and a power of ten.
+    pub fn figure_text(&self) -> Option<String> {
+        self.figure.map(short)
+    }
 }
 
 impl fmt::Display for Finding {
@@ -54,8 +59,8 @@ impl fmt::Display for Finding {
             (Outcome::Failed, Severity::Warning) => "warning",
         };
         write!(f, "{outcome:<8} {:<18} {:<18}", self.rule, self.subject)?;
-        if let Some(figure) = self.figure {
-            write!(f, " {:<10}", short(figure))?;
+        if let Some(figure) = self.figure_text() {
+            write!(f, " {figure:<10}")?;
         }
         if !self.expected.is_empty() {
             write!(f, " expected {}", self.expected)?;
@@ -70,6 +75,8 @@ impl fmt::Display for Finding {
 fn short(figure: f64) -> String {
     if figure == figure.trunc() && figure.abs() < 1e9 {
         format!("{figure}")
+    } else if figure.abs() < 1e-3 {
+        format!("{figure:.1e}")
     } else {
         format!("{figure:.4}")
     }

@@ -72,6 +72,31 @@ impl Spectrum {
     }
 }
 
+/// The energy of a channel by wave number: element `k - 1` is the mean of `|F|^2` over the wave vectors whose length rounds to
+/// `k`, for `k` from 1 to half the texels of a side, where `F(k) = sum f(x) exp(-2 pi i k.x / size)` and the mean of `f` is
+/// left out.
+///
+/// None where there is no such spectrum: the image is no square whose side is a power of two, or a value is not finite.
+pub fn radial_spectrum(image: &Image, channel: usize) -> Option<Vec<f64>> {
+    let side = image.width;
+    let is_fit = side >= 2 && side.is_power_of_two() && side == image.height;
+    if !is_fit || !image.channel(channel).all(f32::is_finite) {
+        return None;
+    }
+    let spectrum = Spectrum::new(image, channel);
+    let mut rings = vec![(0.0, 0_usize); side as usize / 2];
+    for (kx, ky, energy) in spectrum.vectors() {
+        let [x, y] = [kx, ky].map(|k| spectrum.magnitude(k) as f64);
+        let length = libm::round(libm::sqrt(x * x + y * y)) as usize;
+        if let Some(ring) = length.checked_sub(1).and_then(|k| rings.get_mut(k)) {
+            *ring = (ring.0 + energy, ring.1 + 1);
+        }
+    }
+    // Every ring has the vector along an axis.
+    let means = rings.into_iter().map(|(sum, count)| sum / count as f64);
+    Some(means.collect())
+}
+
 /// `exp(-2 pi i j / n)` for `j` below `n / 2`.
 fn turns(n: usize) -> Vec<Complex> {
     let angle = |j: usize| -std::f64::consts::TAU * j as f64 / n as f64;
@@ -136,6 +161,42 @@ mod tests {
             }
             assert!((value[0] - sum[0]).abs() < 1e-10 && (value[1] - sum[1]).abs() < 1e-10);
         }
+    }
+
+    #[test]
+    fn the_radial_spectrum_finds_a_wave_and_the_level_of_white_noise() {
+        let mut image = Image::new(64, 64, 2);
+        for y in 0..64 {
+            for x in 0..64 {
+                // A wave vector of length 5: the ring of 28 vectors that round to it holds two of its energy each.
+                let turn = (3 * x + 4 * y) as f32 / 64.0;
+                image.texel_mut(x, y)[0] = libm::cosf(std::f32::consts::TAU * turn);
+                // One texel alone has the same energy, its square, at every wave vector.
+                image.texel_mut(x, y)[1] = if [x, y] == [9, 20] { 3.0 } else { 0.0 };
+            }
+        }
+        let rings = radial_spectrum(&image, 0).unwrap();
+        let count = (-6_i32..=6)
+            .flat_map(|x| (-6_i32..=6).map(move |y| (x * x + y * y) as f64))
+            .filter(|square| (4.5 * 4.5..5.5 * 5.5).contains(square))
+            .count() as f64;
+        let each = libm::pow(64.0 * 64.0 / 2.0, 2.0);
+        assert!((rings[4] - 2.0 * each / count).abs() < 1e-6 * each);
+        let others = rings.iter().enumerate().filter(|(i, _)| *i != 4);
+        assert!(others.map(|(_, e)| *e).fold(0.0, f64::max) < 1e-9 * each);
+        let flat = radial_spectrum(&image, 1).unwrap();
+        assert_eq!(flat.len(), 32);
+        assert!(flat.iter().all(|e| (e - 9.0).abs() < 1e-9), "{flat:?}");
+    }
+
+    #[test]
+    fn there_is_no_spectrum_of_what_has_none() {
+        assert_eq!(radial_spectrum(&Image::new(64, 32, 1), 0), None);
+        assert_eq!(radial_spectrum(&Image::new(48, 48, 1), 0), None);
+        assert_eq!(radial_spectrum(&Image::new(1, 1, 1), 0), None);
+        let mut image = Image::new(8, 8, 1);
+        image.texels[3] = f32::NAN;
+        assert_eq!(radial_spectrum(&image, 0), None);
     }
 
     #[test]

@@ -7,6 +7,7 @@ mod methods;
 mod skybox;
 mod sprites;
 mod stars;
+mod texture;
 
 use std::fs;
 use std::path::Path;
