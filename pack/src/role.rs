@@ -106,6 +106,9 @@ pub struct RoleSpec {
     pub sides: [u32; 2],
     /// Least and greatest number of images a level.
     pub layers: [u32; 2],
+    /// Where each layer has twice the cells of the one before: the fewest of the first. A cell has two texels or more, so
+    /// the width bounds the layers too.
+    pub least_cells: Option<u32>,
     /// Its levels.
     pub mips: Mips,
     /// Addressing.
@@ -216,16 +219,26 @@ impl RoleSpec {
         if self.size[0] == self.size[1] && width != height {
             return bad("height", height, format!("{width}, as the width"));
         }
-        let [least, most] = self.layers;
+        let [least, most] = [self.layers[0], self.most_layers(width)];
         if !(least..=most).contains(&layers) {
             let expected = if least == most {
                 least.to_string()
+            } else if most < self.layers[1] {
+                format!("{least} to {most} at this width: the finest cell has two texels or more")
             } else {
                 format!("{least} to {most}")
             };
             return bad("layers", layers, expected);
         }
         Ok(())
+    }
+
+    /// The greatest number of images a level at this width.
+    fn most_layers(&self, width: u32) -> u32 {
+        let most = self.layers[1];
+        let doublings = |cells: u32| (width / 2 / cells).checked_ilog2().unwrap_or(0);
+        self.least_cells
+            .map_or(most, |cells| most.min(1 + doublings(cells)))
     }
 }
 

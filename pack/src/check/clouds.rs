@@ -27,7 +27,7 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         };
         tiling::check_smooth(report, Role::Clouds, texture, channel, wave);
         // A channel of two values with mean 0.5 has spread 0.5; one of a dozen byte steps about 0.02.
-        let spread = f64::from(texture.image(0, 0).mean_and_spread(channel).1);
+        let spread = f64::from(texture.view(0, 0).mean_and_spread(channel).1);
         report.measure(
             CLOUD_SPREAD,
             &subject(Role::Clouds, channel),
@@ -75,7 +75,7 @@ fn check_cover(report: &mut Report, texture: &Texture) {
 }
 
 fn histogram(texture: &Texture, channel: usize) -> Vec<f64> {
-    let image = texture.image(0, 0);
+    let image = texture.view(0, 0);
     let mut bins = vec![0.0; 256];
     let share = 1.0 / (f64::from(image.width) * f64::from(image.height));
     for value in image.channel(channel) {
@@ -88,7 +88,7 @@ fn check_gradient(report: &mut Report, texture: &Texture) {
     let name = subject(Role::Clouds, GRADIENT);
     let (mut fall, mut ends) = (0.0_f32, 0.0_f32);
     for level in 0..texture.levels.len() {
-        let image = texture.image(level, 0);
+        let image = texture.view(level, 0);
         let at = |x: u32, y: u32| image.texel(x, y)[GRADIENT];
         for y in 0..image.height {
             for x in 0..image.width {
@@ -112,7 +112,7 @@ fn check_gradient(report: &mut Report, texture: &Texture) {
         f64::from(ends),
         Bound::AtMost(f64::from(texture.format.quantisation_error(1.0))),
     );
-    let image = texture.image(0, 0);
+    let image = texture.view(0, 0);
     let step = (1..image.height)
         .map(|y| image.texel(0, y)[GRADIENT] - image.texel(0, y - 1)[GRADIENT])
         .fold(0.0, f32::max);

@@ -23,12 +23,13 @@ pub(super) struct Place<'a> {
     pub read: Read<'a>,
 }
 
-/// What could be read of a pack.
-type Contents = (Vec<(Role, Texture)>, Option<Field>);
-
-/// Checks the files and gives the textures that could be decoded and are laid out as their role asks, and the field of
-/// clouds.
-pub(super) fn check(report: &mut Report, place: Place) -> Result<Contents, PackError> {
+/// Checks the files. Each texture that could be decoded and is laid out as its role asks is looked at by
+/// `check_texture` and forgotten, so that there is one at a time. Gives the field of clouds, if it could be read.
+pub(super) fn check(
+    report: &mut Report,
+    place: Place,
+    check_texture: impl Fn(&mut Report, Role, &Texture),
+) -> Result<Option<Field>, PackError> {
     let bytes = (place.read)(MANIFEST_FILE, MAX_MANIFEST_BYTES)?;
     let file = join(place.name, MANIFEST_FILE);
     let manifest = Manifest::parse(&file, &bytes)?;
@@ -47,14 +48,15 @@ pub(super) fn check(report: &mut Report, place: Place) -> Result<Contents, PackE
         if manifest.field.is_some() {
             report.skip(FIELD_FILE, field::SUBJECT, "the manifest is not sound");
         }
-        return Ok((Vec::new(), None));
+        return Ok(None);
     }
-    let textures = manifest.textures.iter();
-    let textures = textures
-        .filter_map(|entry| Some((entry.role, check_entry(report, place, entry)?)))
-        .collect();
+    for entry in &manifest.textures {
+        if let Some(texture) = check_entry(report, place, entry) {
+            check_texture(report, entry.role, &texture);
+        }
+    }
     let entry = manifest.field.as_ref();
-    Ok((textures, entry.and_then(|e| check_field(report, place, e))))
+    Ok(entry.and_then(|entry| check_field(report, place, entry)))
 }
 
 fn check_field(report: &mut Report, place: Place, entry: &FieldEntry) -> Option<Field> {
@@ -84,7 +86,9 @@ fn check_entry(report: &mut Report, place: Place, entry: &TextureEntry) -> Optio
         );
         return None;
     };
-    let Some(texture) = report.verify(CONTAINER, name, ktx::decode(&file, &bytes)) else {
+    let decoded = ktx::decode(&file, &bytes);
+    drop(bytes);
+    let Some(texture) = report.verify(CONTAINER, name, decoded) else {
         skip(
             report,
             entry,
@@ -117,7 +121,7 @@ fn skip(report: &mut Report, entry: &TextureEntry, rules: &[super::Rule], why: &
 /// The manifest's figures were computed from the same bytes in the same order: only their decimal
 /// digits may differ.
 fn check_statistics(report: &mut Report, entry: &TextureEntry, texture: &Texture) {
-    let image = texture.stacked(0);
+    let image = texture.view_of_level(0);
     for (index, channel) in entry.channels.iter().enumerate() {
         let (mean, spread) = image.mean_and_spread(index);
         let apart = (mean - channel.mean)

@@ -9,7 +9,7 @@ const NAME: &str = Role::Flares.name();
 /// Looks at level 0: every cell must have light, and none along its border, where filtering would take
 /// it into the next cell.
 pub(super) fn check(report: &mut Report, texture: &Texture) {
-    let image = texture.image(0, 0);
+    let image = texture.view(0, 0);
     let cell = image.width / FlareCell::A_SIDE;
     let edge = FlareCell::BORDER_TEXELS..cell - FlareCell::BORDER_TEXELS;
     let mut brightest_border = 0.0_f32;

@@ -7,7 +7,7 @@ use crate::{Role, Texture};
 
 /// Looks at the texels above the horizon: the brightest must be seen, the mean must leave dark sky.
 pub(super) fn check(report: &mut Report, texture: &Texture) {
-    let image = texture.image(0, 0);
+    let image = texture.view(0, 0);
     let (mut brightest, mut sum, mut count) = (0.0_f32, 0.0_f64, 0.0_f64);
     for y in 0..image.height {
         for x in 0..image.width {

@@ -3,7 +3,8 @@
 use super::report::{Bound, Report};
 use super::rule::MIP_MEAN;
 use super::subject;
-use crate::{Format, Image, Role, Texture};
+use crate::view::View;
+use crate::{Format, Role, Texture};
 
 /// Checks every channel that is averaged over area. Levels of stars and sprites, the sunset gradient and normals have
 /// rules of their own.
@@ -11,8 +12,8 @@ pub(super) fn check(report: &mut Report, role: Role, texture: &Texture) {
     if texture.levels.len() == 1 || matches!(role, Role::Stars | Role::Sprites) {
         return;
     }
-    let layers: Vec<Vec<_>> = (0..texture.layers)
-        .map(|layer| (0..texture.levels.len()).map(move |level| texture.image(level, layer)))
+    let layers: Vec<Vec<View>> = (0..texture.layers)
+        .map(|layer| (0..texture.levels.len()).map(move |level| texture.view(level, layer)))
         .map(Iterator::collect)
         .collect();
     for (index, channel) in role.spec().channels.iter().enumerate() {
@@ -33,7 +34,7 @@ pub(super) fn check(report: &mut Report, role: Role, texture: &Texture) {
 }
 
 /// The largest difference of a level's mean from that of level 0, over what rounding explains.
-fn difference(format: Format, levels: &[Image], channel: usize) -> f32 {
+fn difference(format: Format, levels: &[View], channel: usize) -> f32 {
     let mut means = levels.iter().map(|image| image.mean_and_spread(channel).0);
     let base = means.next().unwrap_or_default();
     // Every texel of both levels was rounded by half a step at most; halves have steps of 2^-24 near 0.

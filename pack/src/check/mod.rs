@@ -65,10 +65,7 @@ pub fn check_memory(place: &str, files: &BTreeMap<String, Vec<u8>>) -> Result<Re
 
 fn check_place(place: Place) -> Result<Report, PackError> {
     let mut report = Report::default();
-    let (textures, clouds) = files::check(&mut report, place)?;
-    for (role, texture) in &textures {
-        check_texture(&mut report, *role, texture);
-    }
+    let clouds = files::check(&mut report, place, check_texture)?;
     if let Some(clouds) = &clouds {
         field::check(&mut report, clouds);
     }

@@ -2,14 +2,17 @@
 
 use super::report::{Bound, Report};
 use super::rule::{SKY_DAY, SKY_NIGHT, SKY_RANGE, SKY_STEP};
-use crate::{Image, Role, Texture};
+use crate::view::View;
+use crate::{Role, Texture};
 
 const NAME: &str = Role::Sky.name();
 
 pub(super) fn check(report: &mut Report, texture: &Texture) {
-    let image = texture.image(0, 0);
-    let colours = || image.texels.chunks_exact(4).flat_map(|t| &t[..3]);
-    let wrong = colours().filter(|v| !v.is_finite() || **v < 0.0).count();
+    let image = texture.view(0, 0);
+    let colours = image
+        .texels()
+        .flat_map(|[red, green, blue, _]| [red, green, blue]);
+    let wrong = colours.filter(|v| !v.is_finite() || *v < 0.0).count();
     report.measure(SKY_RANGE, NAME, wrong as f64, Bound::AtMost(0.0));
     if wrong > 0 {
         for rule in [SKY_NIGHT, SKY_DAY, SKY_STEP] {
@@ -17,11 +20,11 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         }
         return;
     }
-    check_night(report, &image);
+    check_night(report, image);
     let (noon, midnight) = (image.width / 2, 0);
     let mean = |x: u32| {
         (0..image.height)
-            .map(|y| luminance(&image, x, y))
+            .map(|y| luminance(image, x, y))
             .sum::<f64>()
             / f64::from(image.height)
     };
@@ -32,18 +35,18 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         mean(noon) / mean(midnight).max(1e-6),
         Bound::AtLeast(8.0),
     );
-    let zenith = luminance(&image, noon, image.height - 1).max(1e-6);
+    let zenith = luminance(image, noon, image.height - 1).max(1e-6);
     report.measure(
         SKY_DAY,
         "horizon / zenith",
-        luminance(&image, noon, 0) / zenith,
+        luminance(image, noon, 0) / zenith,
         Bound::AtLeast(1.0),
     );
-    check_steps(report, &image);
+    check_steps(report, image);
 }
 
 /// The worst of: night at noon, day at midnight, any share outside 0..1.
-fn check_night(report: &mut Report, image: &Image) {
+fn check_night(report: &mut Report, image: View) {
     let mut worst = 0.0_f32;
     for y in 0..image.height {
         worst = worst.max(image.texel(image.width / 2, y)[3].abs());
@@ -58,7 +61,7 @@ fn check_night(report: &mut Report, image: &Image) {
 /// The largest change of luminance from one time to the next, against the brightest of the whole day.
 ///
 /// With 64 columns or more the sun climbs at most 5.6 degrees a column, and dusk takes it through 18.
-fn check_steps(report: &mut Report, image: &Image) {
+fn check_steps(report: &mut Report, image: View) {
     let brightest = (0..image.width * image.height)
         .map(|i| luminance(image, i % image.width, i / image.width))
         .fold(0.0, f64::max);
@@ -78,7 +81,7 @@ fn check_steps(report: &mut Report, image: &Image) {
 }
 
 /// Luminance of linear BT.709 colour (ITU-R BT.709-6, item 3.2).
-fn luminance(image: &Image, x: u32, y: u32) -> f64 {
+fn luminance(image: View, x: u32, y: u32) -> f64 {
     let t = image.texel(x, y);
     0.2126 * f64::from(t[0]) + 0.7152 * f64::from(t[1]) + 0.0722 * f64::from(t[2])
 }

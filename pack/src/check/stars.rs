@@ -9,7 +9,7 @@ use super::rule::{
     STAR_CLIP, STAR_CLUSTER, STAR_EMPTY, STAR_LATTICE, STAR_LIGHT, STAR_PHASE, STAR_SHARE,
 };
 use super::spectrum::Spectrum;
-use crate::{Image, Role, Texture};
+use crate::{Role, Texture};
 
 const NAME: &str = Role::Stars.name();
 
@@ -27,10 +27,10 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
     report.measure(STAR_CLIP, NAME, clipped as f64, Bound::AtMost(0.0));
 
     let width = texture.width as usize;
-    let lit: Vec<[usize; 2]> = texels(0)
+    let lit: Vec<[u16; 2]> = texels(0)
         .enumerate()
         .filter(|(_, t)| t[0] > 0)
-        .map(|(i, _)| [i % width, i / width])
+        .map(|(i, _)| [i % width, i / width].map(|place| place as u16))
         .collect();
     let share = lit.len() as f64 / texels(0).len() as f64;
     // At one star in 16 texels stars touch; below one in 3000 a tile of 256x256 has some twenty.
@@ -49,7 +49,7 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
     }
     let phases: Vec<u8> = texels(0).filter(|t| t[0] > 0).map(|t| t[3]).collect();
     check_phases(report, &phases);
-    check_lattice(report, &lit, texture.width);
+    check_lattice(report, texture, lit.len());
     check_clusters(report, &lit, texture.width, texture.height);
 }
 
@@ -91,19 +91,18 @@ fn check_phases(report: &mut Report, phases: &[u8]) {
 ///
 /// For independent stars S is exponentially distributed with mean 1 at every wave vector, for a lattice
 /// it is N at the lattice's own. A minimum distance lowers S at small k and lifts it little elsewhere.
-fn check_lattice(report: &mut Report, stars: &[[usize; 2]], side: u32) {
-    let mut field = Image::new(side, side, 1);
-    for &[x, y] in stars {
-        field.texel_mut(x as u32, y as u32)[0] = 1.0;
-    }
+fn check_lattice(report: &mut Report, texture: &Texture, stars: usize) {
+    let side = texture.width;
+    let intensities = texture.view(0, 0).channel(0);
+    let is_star = intensities.map(|i| if i > 0.0 { 1.0 } else { 0.0 });
     let half = side as usize / 2;
-    let spectrum = Spectrum::new(&field, 0);
+    let spectrum = Spectrum::new(side, is_star);
     // The conjugate half of the plane says nothing new.
     let one_of_each = |kx: usize, ky: usize| kx < half && (kx > 0 || (1..=half).contains(&ky));
     let peak = spectrum
         .vectors()
         .filter(|&(kx, ky, _)| one_of_each(kx, ky))
-        .map(|(_, _, energy)| energy / stars.len() as f64)
+        .map(|(_, _, energy)| energy / stars as f64)
         .fold(0.0, f64::max);
     let waves = (half * side as usize) as f64;
     report.measure(
@@ -115,14 +114,14 @@ fn check_lattice(report: &mut Report, stars: &[[usize; 2]], side: u32) {
 }
 
 /// The index of dispersion of counts in cells of about four stars (variance over mean, 1 if independent).
-fn check_clusters(report: &mut Report, stars: &[[usize; 2]], width: u32, height: u32) {
+fn check_clusters(report: &mut Report, stars: &[[u16; 2]], width: u32, height: u32) {
     let aim = libm::sqrt(stars.len() as f64 / 4.0);
     let mut cells = 2_usize;
     while cells * 2 <= aim as usize {
         cells *= 2;
     }
     let mut counts = vec![0.0; cells * cells];
-    for &[x, y] in stars {
+    for [x, y] in stars.iter().map(|place| place.map(usize::from)) {
         counts[(y * cells / height as usize) * cells + x * cells / width as usize] += 1.0;
     }
     let freedom = (counts.len() - 1) as f64;

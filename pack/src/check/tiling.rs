@@ -3,7 +3,8 @@
 use super::report::{Bound, Report};
 use super::rule::{SEAM, SMOOTH};
 use super::subject;
-use crate::{Image, Role, Texture};
+use crate::view::View;
+use crate::{Role, Texture};
 
 /// Compares the difference across the edges with the differences inside, on both axes, every level and layer.
 pub(super) fn check_seam(report: &mut Report, role: Role, texture: &Texture, channel: usize) {
@@ -19,14 +20,14 @@ pub(super) fn check_seam(report: &mut Report, role: Role, texture: &Texture, cha
 pub(super) fn seam(texture: &Texture, channel: usize, levels: usize) -> f64 {
     let mut worst = 0.0_f64;
     let images = (0..levels)
-        .flat_map(|level| (0..texture.layers).map(move |layer| texture.image(level, layer)));
+        .flat_map(|level| (0..texture.layers).map(move |layer| texture.view(level, layer)));
     for image in images {
         for axis in [Axis::X, Axis::Y] {
-            let (inside, across) = differences(&image, channel, axis);
+            let (inside, across) = differences(image, channel, axis);
             let Some(largest) = inside.into_iter().reduce(f64::max) else {
                 continue;
             };
-            let slack = 1.25 + 8.0 / f64::from(axis.length(&image));
+            let slack = 1.25 + 8.0 / f64::from(axis.length(image));
             worst = worst.max(across / ((largest + HALF_STEP) * slack));
         }
     }
@@ -47,7 +48,7 @@ pub(super) fn check_smooth(
     channel: usize,
     texels_a_wave: f64,
 ) {
-    let ratios = (0..texture.layers).map(|layer| roughness(&texture.image(0, layer), channel));
+    let ratios = (0..texture.layers).map(|layer| roughness(texture.view(0, layer), channel));
     let most = 2.0 * libm::sin(std::f64::consts::PI / texels_a_wave);
     report.measure(
         SMOOTH,
@@ -57,7 +58,7 @@ pub(super) fn check_smooth(
     );
 }
 
-fn roughness(image: &Image, channel: usize) -> f64 {
+fn roughness(image: View, channel: usize) -> f64 {
     let (mut first, mut second) = (0.0, 0.0);
     let (width, height) = (image.width, image.height);
     let at = |x: u32, y: u32| f64::from(image.texel(x % width, y % height)[channel]);
@@ -84,7 +85,7 @@ enum Axis {
 }
 
 impl Axis {
-    fn length(self, image: &Image) -> u32 {
+    fn length(self, image: View) -> u32 {
         match self {
             Axis::X => image.width,
             Axis::Y => image.height,
@@ -93,7 +94,7 @@ impl Axis {
 }
 
 /// Root mean square differences between each line and the next, and between the last and the first.
-fn differences(image: &Image, channel: usize, axis: Axis) -> (Vec<f64>, f64) {
+fn differences(image: View, channel: usize, axis: Axis) -> (Vec<f64>, f64) {
     let (length, breadth) = match axis {
         Axis::X => (image.width, image.height),
         Axis::Y => (image.height, image.width),

@@ -2,6 +2,7 @@
 
 use super::{ChannelSpec, Filter, Mips, RoleSpec, Wrap};
 use crate::limits::MAX_SIDE;
+use crate::mapping::FBM_LEAST_CELLS;
 use crate::texel::StarTexel;
 use crate::{Format, Shape};
 
@@ -28,6 +29,7 @@ pub(super) const CLOUDS: RoleSpec = RoleSpec {
     size: [512, 512],
     sides: ANY_SIDE,
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Repeat,
     filter: Filter::Linear,
@@ -50,6 +52,7 @@ pub(super) const STARS: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: ANY_SIDE,
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Repeat,
     filter: Filter::Nearest,
@@ -77,6 +80,7 @@ pub(super) const GALAXY: RoleSpec = RoleSpec {
     size: [128, 128],
     sides: ANY_SIDE,
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Clamp,
     filter: Filter::Linear,
@@ -89,6 +93,7 @@ pub(super) const SKY: RoleSpec = RoleSpec {
     size: [128, 64],
     sides: ANY_SIDE,
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::One,
     wrap: Wrap::Repeat,
     filter: Filter::Linear,
@@ -124,8 +129,10 @@ pub(super) const SUN: RoleSpec = RoleSpec {
     formats: &[Format::Rg8Unorm],
     shape: Shape::D2,
     size: [128, 128],
-    sides: ANY_SIDE,
+    // A smaller disc has no middle: texels about it reach to its edge.
+    sides: [16, MAX_SIDE],
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Clamp,
     filter: Filter::Linear,
@@ -146,6 +153,7 @@ pub(super) const OCTAVES: RoleSpec = RoleSpec {
     size: [32, 32],
     sides: [32, 32],
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::One,
     wrap: Wrap::Repeat,
     filter: Filter::Nearest,
@@ -178,6 +186,7 @@ pub(super) const FBM: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: [64, 1024],
     layers: [1, 8],
+    least_cells: Some(FBM_LEAST_CELLS),
     mips: Mips::One,
     wrap: Wrap::Repeat,
     filter: Filter::Linear,
@@ -205,6 +214,7 @@ pub(super) const FLARES: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: [64, 1024],
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Clamp,
     filter: Filter::Linear,
@@ -222,6 +232,7 @@ pub(super) const LAYERS: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: [64, 1024],
     layers: [3, 3],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Repeat,
     filter: Filter::Linear,
@@ -254,6 +265,7 @@ pub(super) const SPRITES: RoleSpec = RoleSpec {
     size: [512, 512],
     sides: [128, 2048],
     layers: [1, 1],
+    least_cells: None,
     // Cells of 8 texels: smaller ones would be border and little else.
     mips: Mips::To(32),
     wrap: Wrap::Clamp,
@@ -280,6 +292,7 @@ pub(super) const SKYBOX: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: [16, 2048],
     layers: [6, 6],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Clamp,
     filter: Filter::Linear,
