@@ -247,6 +247,24 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_finest_cell_of_an_octave_has_two_texels() {
+        let fbm = Role::Fbm.spec();
+        let most = [64, 128, 256, 512, 1024].map(|width| fbm.most_layers(width));
+        assert_eq!(most, [4, 5, 6, 7, 8]);
+        let refused = |width, layers| {
+            let error = fbm.verify_size("f", "", [width, width, layers]);
+            error.err().map(|error| error.to_string())
+        };
+        assert_eq!(refused(64, 4), None);
+        assert_eq!(refused(1024, 8), None);
+        for (width, layers) in [(64, 7), (64, 8), (128, 8)] {
+            let error = refused(width, layers).unwrap();
+            assert!(error.starts_with(&format!("f: layers is {layers}, expected 1 to ")));
+        }
+        assert_eq!(Role::Skybox.spec().most_layers(16), 6);
+    }
+
+    #[test]
     fn levels_are_as_many_as_said() {
         let counts =
             |mips: Mips| [(512, 512), (128, 64), (16, 16), (1, 1)].map(|(w, h)| mips.count(w, h));

@@ -62,7 +62,7 @@ fn check_bands(report: &mut Report, layers: &[View]) {
     };
     let cells = cells_of_the_first(&spectra, size);
     for (index, spectrum) in spectra.iter().enumerate() {
-        let (cells, layer) = (cells << index, index + 1);
+        let (cells, layer) = ((cells << index).min(size / 2), index + 1);
         let octave = Interpolation::new(size, cells);
         let mut measure = |cut: u32, bound| {
             let name = format!("{} {layer} below {cut}", subject(Role::Fbm, NOISE));

@@ -26,13 +26,8 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         .count();
     report.measure(STAR_CLIP, NAME, clipped as f64, Bound::AtMost(0.0));
 
-    let width = texture.width as usize;
-    let lit: Vec<[u16; 2]> = texels(0)
-        .enumerate()
-        .filter(|(_, t)| t[0] > 0)
-        .map(|(i, _)| [i % width, i / width].map(|place| place as u16))
-        .collect();
-    let share = lit.len() as f64 / texels(0).len() as f64;
+    let stars = lit(texture).count();
+    let share = stars as f64 / texels(0).len() as f64;
     // At one star in 16 texels stars touch; below one in 3000 a tile of 256x256 has some twenty.
     report.measure(
         STAR_SHARE,
@@ -41,16 +36,24 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         Bound::Within(1.0 / 3000.0, 1.0 / 16.0),
     );
     check_light(report, texture);
-    if lit.len() < 20 {
+    if stars < 20 {
         for rule in [STAR_PHASE, STAR_LATTICE, STAR_CLUSTER] {
             report.skip(rule, NAME, "too few stars for statistics");
         }
         return;
     }
-    let phases: Vec<u8> = texels(0).filter(|t| t[0] > 0).map(|t| t[3]).collect();
-    check_phases(report, &phases);
-    check_lattice(report, texture, lit.len());
-    check_clusters(report, &lit, texture.width, texture.height);
+    check_phases(report, texture);
+    check_lattice(report, texture, stars);
+    check_clusters(report, texture, stars);
+}
+
+/// The stars of level 0: where each is, and its four bytes. There may be millions in a texture that is none, so they are
+/// not kept.
+fn lit(texture: &Texture) -> impl Iterator<Item = ([usize; 2], &[u8])> {
+    let width = texture.width as usize;
+    let texels = texture.levels[0].chunks_exact(4).enumerate();
+    let stars = texels.filter(|(_, texel)| texel[0] > 0);
+    stars.map(move |(i, texel)| ([i % width, i / width], texel))
 }
 
 /// The sum of intensities times the area of a texel, level by level.
@@ -77,11 +80,9 @@ fn check_light(report: &mut Report, texture: &Texture) {
 }
 
 /// Pearson's chi-squared test of the phases in 16 bins (K. Pearson, 1900).
-fn check_phases(report: &mut Report, phases: &[u8]) {
+fn check_phases(report: &mut Report, texture: &Texture) {
     let mut bins = [0.0_f64; 16];
-    phases
-        .iter()
-        .for_each(|&phase| bins[usize::from(phase >> 4)] += 1.0);
+    lit(texture).for_each(|(_, texel)| bins[usize::from(texel[3] >> 4)] += 1.0);
     // Bytes round to nearest, so byte 0 also stands for what would be 256: half a step, far below the noise.
     let most = chi_squared_quantile(15.0);
     report.measure(STAR_PHASE, NAME, chi_squared(&bins), Bound::AtMost(most));
@@ -114,15 +115,16 @@ fn check_lattice(report: &mut Report, texture: &Texture, stars: usize) {
 }
 
 /// The index of dispersion of counts in cells of about four stars (variance over mean, 1 if independent).
-fn check_clusters(report: &mut Report, stars: &[[u16; 2]], width: u32, height: u32) {
-    let aim = libm::sqrt(stars.len() as f64 / 4.0);
+fn check_clusters(report: &mut Report, texture: &Texture, stars: usize) {
+    let (width, height) = (texture.width as usize, texture.height as usize);
+    let aim = libm::sqrt(stars as f64 / 4.0);
     let mut cells = 2_usize;
     while cells * 2 <= aim as usize {
         cells *= 2;
     }
     let mut counts = vec![0.0; cells * cells];
-    for [x, y] in stars.iter().map(|place| place.map(usize::from)) {
-        counts[(y * cells / height as usize) * cells + x * cells / width as usize] += 1.0;
+    for ([x, y], _) in lit(texture) {
+        counts[(y * cells / height) * cells + x * cells / width] += 1.0;
     }
     let freedom = (counts.len() - 1) as f64;
     let index = chi_squared(&counts) / freedom;
