@@ -41,7 +41,7 @@ size = 64
 size = 128
 [field]
 sections = 1
-most_sprites = 100
+most_sprites = 1000
 [skybox]
 file = "sky.png"
 size = 16
