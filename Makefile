@@ -23,10 +23,18 @@ STORM := --time 0.42 --cover 0.92 --density 0.75 --azimuth 40 --elevation 25
 # Mesa's device selection complains of a desktop session that is not there; without it, nothing is lost.
 export NODEVICE_SELECT := 1
 
-.PHONY: help sky view gallery web test web-test recipes check bench tools gpu-tools window-tools desktop-tools node-tools web-tools browser clean
+# Everything that reads a file of somebody else's: targets in fuzz/fuzz_targets/.
+FUZZ := pack ktx manifest field recipe picture model
+SECONDS := 60
+FUZZ_FLAGS := -max_len=131072 -rss_limit_mb=2048 -timeout=20
+
+# The other processor that bakes are compared on, under qemu.
+AARCH64 := aarch64-unknown-linux-gnu
+
+.PHONY: help sky view gallery web test web-test recipes check bench fuzz fuzz-build aarch64 aarch64-tools tools gpu-tools window-tools desktop-tools node-tools web-tools browser clean
 
 help: ## Say what can be made
-	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
+	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
 
 sky: gpu-tools ## Bake the default pack, check it, and draw pictures of every method into out/
 	$(CARGO) build --release --locked -p welkin-baker -p welkin-viewer
@@ -147,6 +155,34 @@ bench: gpu-tools ## Measure the bake, and the GPU milliseconds of a frame of eac
 	$(CARGO) build --release --locked -p welkin-baker -p welkin-viewer
 	$(WELKIN) bake -o $(PACK) --force
 	$(VIEW) bench $(PACK) --method all
+
+# Without sanitizers, which want a nightly compiler: the crates have no unsafe code, so what is looked for are panics, hangs and
+# too much memory. libFuzzer's coverage works with the stable one.
+fuzz-build: ## Compile the fuzz targets and write what they start from
+	@command -v cargo-fuzz >/dev/null || $(CARGO) install cargo-fuzz --locked
+	$(CARGO) run --release --locked --manifest-path fuzz/Cargo.toml -p welkin-fuzz-seeds -- fuzz/corpus
+	$(CARGO) fuzz build --sanitizer none
+
+fuzz: fuzz-build ## Feed every reader with damaged files, SECONDS each: `make fuzz SECONDS=600`
+	for target in $(FUZZ); do \
+	  $(CARGO) fuzz run --sanitizer none $$target -- -max_total_time=$(SECONDS) $(FUZZ_FLAGS); \
+	done
+
+aarch64: aarch64-tools ## Bake the default pack as a 64-bit ARM processor does, and compare it byte by byte
+	$(CARGO) build --release --locked -p welkin-baker
+	CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc CC_aarch64_unknown_linux_gnu=aarch64-linux-gnu-gcc \
+	  $(CARGO) build --release --locked --target $(AARCH64) -p welkin-baker
+	mkdir -p out
+	$(WELKIN) bake -o out/pack-here --force
+	qemu-aarch64 -L /usr/aarch64-linux-gnu target/$(AARCH64)/release/welkin bake -o out/pack-aarch64 --force
+	sha256sum out/pack-here/* out/pack-aarch64/*
+	diff -r out/pack-here out/pack-aarch64
+
+# The standard library for it comes from rustup, the rest from Debian.
+aarch64-tools:
+	@[ -d "$$(rustc --print sysroot)/lib/rustlib/$(AARCH64)" ] || rustup target add $(AARCH64)
+	@command -v aarch64-linux-gnu-gcc >/dev/null && command -v qemu-aarch64 >/dev/null && [ -d /usr/aarch64-linux-gnu/include ] \
+	  || scripts/apt-install gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user
 
 tools: gpu-tools window-tools desktop-tools node-tools web-tools browser ## Install what pictures, window, page and tests need, with apt, where it is missing
 

@@ -25,6 +25,8 @@ mod field;
 mod filter;
 mod flares;
 mod fractal;
+#[doc(hidden)]
+pub mod fuzzing;
 mod galaxy;
 mod inputs;
 mod lattice;

@@ -45,7 +45,7 @@ impl Image {
     }
 
     /// One channel alone, row by row.
-    pub fn channel(&self, channel: usize) -> impl Iterator<Item = f32> + '_ {
+    pub fn channel(&self, channel: usize) -> impl Iterator<Item = f32> + Clone + '_ {
         self.texels
             .iter()
             .skip(channel)
@@ -55,13 +55,17 @@ impl Image {
 
     /// Mean and standard deviation of one channel, summed in row order in 64 bits.
     pub fn mean_and_spread(&self, channel: usize) -> (f32, f32) {
-        let count = f64::from(self.width) * f64::from(self.height);
-        let mean = self.channel(channel).map(f64::from).sum::<f64>() / count;
-        let variance = self
-            .channel(channel)
-            .map(|v| (f64::from(v) - mean) * (f64::from(v) - mean))
-            .sum::<f64>()
-            / count;
-        (mean as f32, libm::sqrt(variance) as f32)
+        mean_and_spread(self.channel(channel))
     }
+}
+
+/// Mean and standard deviation of numbers, summed in their order in 64 bits.
+pub(crate) fn mean_and_spread(values: impl Iterator<Item = f32> + Clone) -> (f32, f32) {
+    let values = values.map(f64::from);
+    let (sum, count) = values
+        .clone()
+        .fold((0.0, 0.0), |(sum, n), v| (sum + v, n + 1.0));
+    let mean = sum / count;
+    let variance = values.map(|v| (v - mean) * (v - mean)).sum::<f64>() / count;
+    (mean as f32, libm::sqrt(variance) as f32)
 }

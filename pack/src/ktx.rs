@@ -2,26 +2,33 @@
 //!
 //! Khronos Group, "KTX File Format Specification", version 2.0. The crate `ktx2` parses headers and
 //! builds the data format descriptor; this file lays out the sections, inflates the levels, and refuses
-//! whatever does not match what it claims before it allocates for it.
+//! whatever does not match what it claims before it allocates for it. `sections.rs` compares every offset and length
+//! with the only ones that a file may have, `key_values.rs` reads the key/value data. docs/pack-format.md lists the
+//! rules, and those of Khronos's own validator that are not ours.
 //!
 //! Layout written: header, level index, descriptor, key/value data, levels from the smallest to the
 //! largest. Levels are compressed with Zstandard one by one. The descriptor keeps its `bytesPlane`
 //! values, as the current revision of the specification asks for compressed files too.
 
+mod key_values;
+mod sections;
+
 use ktx2::dfd::{Basic, Block};
-use ktx2::{Header, ParseError, Reader, SupercompressionScheme};
+use ktx2::{Header, ParseError, SupercompressionScheme};
 
 use crate::limits::{MAX_LAYERS, MAX_SIDE, MAX_TEXTURE_BYTES};
 use crate::texture::Texture;
 use crate::{Format, PackError, Shape};
 
-/// With the NUL that ends every key.
-const ORIENTATION_KEY: &[u8] = b"KTXorientation\0";
-/// Rows go down, columns go right: what [`Texture`] holds.
-const ORIENTATION: &[u8] = b"rd\0";
-
 #[cfg(feature = "write")]
 pub use write::encode;
+
+/// The largest window of a compressed level that is read whatever the level's size: 8 MiB, which RFC 8878, section
+/// 3.1.1.1.2, recommends to support.
+const WINDOW_BYTES: u64 = 8 << 20;
+
+/// The largest window in all. A decoder keeps as many bytes beside the texels.
+const MAX_WINDOW_BYTES: u64 = 64 << 20;
 
 /// Reads a KTX2 file. `file` names it in errors.
 ///
@@ -37,11 +44,7 @@ pub fn decode(file: &str, bytes: &[u8]) -> Result<Texture, PackError> {
     let header = Header::from_bytes(start).map_err(not_ktx2)?;
     let mut texture = describe(file, &header)?;
     verify_descriptor(file, bytes, &header, texture.format)?;
-    verify_key_values(file, bytes, &header)?;
-    // The crate's reader trusts the two sections above more than a hostile file deserves, so it comes last.
-    let reader = Reader::new(bytes).map_err(not_ktx2)?;
-    let levels = reader.header().level_count as usize;
-    let total: u64 = (0..levels)
+    let total: u64 = (0..header.level_count as usize)
         .map(|level| texture.level_bytes(level) as u64)
         .sum();
     if total > MAX_TEXTURE_BYTES {
@@ -52,17 +55,14 @@ pub fn decode(file: &str, bytes: &[u8]) -> Result<Texture, PackError> {
             MAX_TEXTURE_BYTES,
         ));
     }
-    for (index, level) in reader.levels().enumerate() {
+    let sections = sections::verify(file, bytes, &header, &texture)?;
+    key_values::verify(file, sections.key_values)?;
+    for (index, data) in sections.levels.into_iter().enumerate() {
         let key = format!("level {index}");
         let expected = texture.level_bytes(index);
-        if level.uncompressed_byte_length != expected as u64 {
-            let found = format!("{} bytes", level.uncompressed_byte_length);
-            return Err(bad(&key, found, &format!("{expected} bytes")));
-        }
-        let texels = match reader.header().supercompression_scheme {
-            None => level.data.to_vec(),
-            Some(_) => inflate(level.data, expected)
-                .ok_or_else(|| bad(&key, "damaged".into(), "Zstandard data"))?,
+        let texels = match header.supercompression_scheme {
+            None => data.to_vec(),
+            Some(_) => inflate(data, expected).map_err(|found| bad(&key, found, ONE_FRAME))?,
         };
         if texels.len() != expected {
             return Err(bad(
@@ -97,11 +97,14 @@ fn describe(file: &str, header: &Header) -> Result<Texture, PackError> {
             return Err(too_large(file, key, side.into(), MAX_SIDE.into()));
         }
     }
-    if height == 0 || header.pixel_depth != 0 {
+    if height == 0 {
+        return bad("pixelHeight", "0".into(), "1 or more: a 2-D texture");
+    }
+    if header.pixel_depth != 0 {
         return bad(
             "pixelDepth",
             header.pixel_depth.to_string(),
-            "0, and a height above 0: a 2-D texture",
+            "0: a 2-D texture",
         );
     }
     if header.layer_count > MAX_LAYERS {
@@ -143,8 +146,8 @@ fn describe(file: &str, header: &Header) -> Result<Texture, PackError> {
     })
 }
 
-/// Compares the descriptor with the one of the format, byte by byte. `bytesPlane` may be zero throughout,
-/// as older revisions of the specification asked of compressed files.
+/// Compares the descriptor with the one of the format, byte by byte. `bytesPlane` of a compressed file may be zero
+/// throughout, as older revisions of the specification asked.
 fn verify_descriptor(
     file: &str,
     bytes: &[u8],
@@ -153,18 +156,31 @@ fn verify_descriptor(
 ) -> Result<(), PackError> {
     let (block, type_size) = descriptor(file, format)?;
     let expected = descriptor_section(&block);
+    let index = &header.index;
+    let Some(found) = section(bytes, index.dfd_byte_offset, index.dfd_byte_length) else {
+        let found = format!(
+            "{} bytes at {}",
+            index.dfd_byte_length, index.dfd_byte_offset
+        );
+        let key = "data format descriptor";
+        return Err(PackError::value(file, key, found, "inside the file"));
+    };
     let mut unsized_block = block;
     unsized_block.bytes_planes = [0; 8];
-    let index = &header.index;
-    let found = section(bytes, index.dfd_byte_offset, index.dfd_byte_length);
-    if found != Some(&expected[..]) && found != Some(&descriptor_section(&unsized_block)[..]) {
-        let found = found.map_or("outside the file".to_string(), |f| format!("{f:02x?}"));
-        let expected = format!("{expected:02x?}: linear {}", format.name());
+    let is_unsized =
+        header.supercompression_scheme.is_some() && found == descriptor_section(&unsized_block);
+    if found != expected && !is_unsized {
+        let lengths = [found.len(), expected.len()].map(|n| format!("{n} bytes"));
+        let (key, [found, expected]) = if found.len() == expected.len() {
+            differing_field(found, &expected)
+        } else {
+            ("dfdByteLength".to_string(), lengths)
+        };
         return Err(PackError::value(
             file,
-            "data format descriptor",
+            &format!("data format descriptor: {key}"),
             found,
-            expected,
+            format!("{expected}, as linear {} has it", format.name()),
         ));
     }
     if header.type_size != type_size {
@@ -178,6 +194,48 @@ fn verify_descriptor(
     Ok(())
 }
 
+/// Fields of a basic block after the total size: name and bytes (Khronos Group, "Data Format Specification", 1.4,
+/// section 5).
+const BLOCK_FIELDS: [(&str, usize); 9] = [
+    ("dfdTotalSize", 4),
+    ("vendorId and descriptorType", 4),
+    ("versionNumber", 2),
+    ("descriptorBlockSize", 2),
+    ("colorModel", 1),
+    ("colorPrimaries", 1),
+    ("transferFunction", 1),
+    ("flags", 1),
+    ("texelBlockDimension", 4),
+];
+
+/// Fields of a sample of the block.
+const SAMPLE_FIELDS: [(&str, usize); 6] = [
+    ("bitOffset", 2),
+    ("bitLength", 1),
+    ("channelType", 1),
+    ("samplePosition", 4),
+    ("sampleLower", 4),
+    ("sampleUpper", 4),
+];
+
+/// The first field that differs, with its bytes in both descriptors, which are equally long.
+fn differing_field(found: &[u8], expected: &[u8]) -> (String, [String; 2]) {
+    let block = BLOCK_FIELDS.into_iter().chain([("bytesPlane", 8)]);
+    let block = block.map(|(name, bytes)| (name.to_string(), bytes));
+    let samples = (0..).flat_map(|sample| {
+        SAMPLE_FIELDS.map(|(name, bytes)| (format!("{name} of sample {sample}"), bytes))
+    });
+    let mut at = 0;
+    for (name, bytes) in block.chain(samples) {
+        let fields = [found, expected].map(|all| all.get(at..at + bytes).unwrap_or_default());
+        if fields[0] != fields[1] || at >= found.len() {
+            return (name, fields.map(|bytes| format!("{bytes:02x?}")));
+        }
+        at += bytes;
+    }
+    Default::default()
+}
+
 /// The descriptor's section: its length, and one basic block.
 fn descriptor_section(block: &Basic) -> Vec<u8> {
     let block = Block::Basic(block.clone()).to_vec();
@@ -188,51 +246,33 @@ fn section(bytes: &[u8], offset: u32, length: u32) -> Option<&[u8]> {
     bytes.get(offset as usize..)?.get(..length as usize)
 }
 
-/// Walks the key/value data: every entry must lie inside it, and the orientation, if said, must be ours.
-fn verify_key_values(file: &str, bytes: &[u8], header: &Header) -> Result<(), PackError> {
-    let bad = |key: &str, found: String, expected: &str| {
-        Err(PackError::value(file, key, found, expected))
-    };
-    let index = &header.index;
-    let Some(mut rest) = section(bytes, index.kvd_byte_offset, index.kvd_byte_length) else {
-        let found = format!(
-            "{} bytes at {}",
-            index.kvd_byte_length, index.kvd_byte_offset
-        );
-        return bad("key/value data", found, "inside the file");
-    };
-    while let Some((length, after)) = rest.split_first_chunk() {
-        let length = u32::from_le_bytes(*length) as usize;
-        let Some(entry) = after.get(..length) else {
-            return bad(
-                "key/value data",
-                format!("an entry of {length} bytes"),
-                "inside the section",
-            );
-        };
-        if let Some(value) = entry
-            .strip_prefix(ORIENTATION_KEY)
-            .filter(|value| *value != ORIENTATION)
-        {
-            let found = String::from_utf8_lossy(value).into_owned();
-            return bad("KTXorientation", found, "rd: right and down");
-        }
-        rest = after.get(length.next_multiple_of(4)..).unwrap_or_default();
-    }
-    Ok(())
-}
+/// What a compressed level is.
+const ONE_FRAME: &str = "one frame of Zstandard data";
 
-/// Inflates one level, or nothing if it is damaged or holds more than `expected` bytes.
-fn inflate(data: &[u8], expected: usize) -> Option<Vec<u8>> {
+/// Inflates one level, or says what is wrong with it. It may hold more than `expected` bytes, of which one is read.
+fn inflate(data: &[u8], expected: usize) -> Result<Vec<u8>, String> {
+    use ruzstd::decoding::StreamingDecoder;
     use std::io::Read;
-    let decoder = ruzstd::decoding::StreamingDecoder::new(data).ok()?;
+    let damaged = |e: &dyn std::fmt::Display| format!("damaged ({e})");
+    let window = (expected as u64).clamp(WINDOW_BYTES, MAX_WINDOW_BYTES);
+    let mut decoder =
+        StreamingDecoder::new_with_max_window_size(data, window).map_err(|e| damaged(&e))?;
     let mut texels = Vec::with_capacity(expected);
     // One byte more than expected is enough to tell that there are too many.
-    decoder
-        .take(expected as u64 + 1)
-        .read_to_end(&mut texels)
-        .ok()?;
-    Some(texels)
+    let mut limited = (&mut decoder).take(expected as u64 + 1);
+    limited.read_to_end(&mut texels).map_err(|e| damaged(&e))?;
+    if texels.len() > expected {
+        return Ok(texels);
+    }
+    let (rest, decoder) = decoder.into_parts();
+    let told = decoder.get_checksum_from_data();
+    if told.is_some() && told != decoder.get_calculated_checksum() {
+        return Err(damaged(&"its checksum is another"));
+    }
+    if !rest.is_empty() {
+        return Err(format!("{} bytes longer than its frame", rest.len()));
+    }
+    Ok(texels)
 }
 
 /// The linear data format descriptor of a format, with its type size in bytes.
@@ -256,6 +296,7 @@ mod write {
     use zstd::bulk::Compressor;
     use zstd::zstd_safe::{CParameter, Strategy};
 
+    use super::key_values::{ORIENTATION, ORIENTATION_KEY};
     use super::*;
 
     /// The compressor's settings. Texels repeat three of their four bytes (the sunset gradient beside smooth
@@ -347,8 +388,8 @@ mod write {
     fn key_values(writer: &str) -> Vec<u8> {
         let writer = [writer.as_bytes(), b"\0"].concat();
         let mut bytes = Vec::new();
-        for (key, value) in [(ORIENTATION_KEY, ORIENTATION), (b"KTXwriter\0", &writer)] {
-            let entry = [key, value].concat();
+        for (key, value) in [(ORIENTATION_KEY, ORIENTATION), ("KTXwriter", &writer)] {
+            let entry = [key.as_bytes(), b"\0", value].concat();
             bytes.extend((entry.len() as u32).to_le_bytes());
             bytes.extend(entry);
             bytes.resize(bytes.len().next_multiple_of(4), 0);

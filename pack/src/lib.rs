@@ -32,6 +32,7 @@ mod test_field;
 mod test_pack;
 pub mod texel;
 pub mod texture;
+mod view;
 
 pub use error::PackError;
 pub use field::Field;

@@ -148,6 +148,9 @@ pub fn direction_to_gradient(direction: [f32; 3], sun_azimuth: [f32; 2]) -> f32 
 /// Steps of the ray march of the role `fbm` across one tile: a step is `size / FBM_STEPS_A_TILE` texels.
 pub const FBM_STEPS_A_TILE: u32 = 64;
 
+/// Fewest cells across the first layer of the role `fbm`; each layer has twice those of the one before.
+pub const FBM_LEAST_CELLS: u32 = 4;
+
 /// Unit direction towards the sun at a time of day (0 midnight, 0.25 sunrise, 0.5 noon, 0.75 sunset).
 ///
 /// The sun goes round a great circle that rises due east, stands `noon_elevation_rad` high in the south at

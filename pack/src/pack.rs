@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::field::glb;
 use crate::limits::{MAX_FIELD_BYTES, MAX_FILE_BYTES, MAX_MANIFEST_BYTES};
 use crate::manifest::MANIFEST_FILE;
 use crate::read::{in_folder, in_memory, join};
@@ -99,9 +98,8 @@ impl Pack {
             let file = join(place, &entry.file);
             let bytes = read(&entry.file, MAX_FIELD_BYTES)?;
             entry.verify_file(&file, &bytes)?;
-            let decoded = glb::decode(&file, &bytes)?;
+            let decoded = Field::from_glb(&file, &bytes)?;
             entry.verify_counts(&file, &decoded)?;
-            decoded.verify(&file)?;
             field = Some(decoded);
             files.push((entry.file.clone(), bytes));
         }

@@ -333,6 +333,10 @@ fn layers_that_do_not_fit_their_role_are_refused() {
     );
     assert_eq!(
         blamed(Role::Fbm, &|i| i.resize(9, i[0].clone())),
+        "fbm.ktx2: layers is 9, expected 1 to 4 at this width: the finest cell has two texels or more"
+    );
+    assert_eq!(
+        blamed(Role::Fbm, &|i| *i = vec![Image::new(1024, 1024, 4); 9]),
         "fbm.ktx2: layers is 9, expected 1 to 8"
     );
     assert_eq!(
@@ -381,7 +385,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
-    fn every_layer_has_the_levels_that_it_would_have_alone(layers in 1_u32..=8, seed in any::<u64>()) {
+    fn every_layer_has_the_levels_that_it_would_have_alone(layers in 1_u32..=4, seed in any::<u64>()) {
         for (role, layers) in [(Role::Fbm, layers), (Role::Skybox, 6)] {
             let source = noisy(role, 64, layers, seed);
             let pack = Pack::build(info(), vec![source.clone()]).unwrap();
@@ -403,7 +407,7 @@ proptest! {
     }
 
     #[test]
-    fn the_manifests_figures_are_of_all_layers(layers in 1_u32..=8, seed in any::<u64>()) {
+    fn the_manifests_figures_are_of_all_layers(layers in 1_u32..=4, seed in any::<u64>()) {
         let pack = Pack::build(info(), vec![noisy(Role::Fbm, 64, layers, seed)]).unwrap();
         let texture = pack.texture(Role::Fbm).unwrap();
         let entry = pack.manifest().texture(Role::Fbm).unwrap();

@@ -108,6 +108,9 @@ pub struct RoleSpec {
     pub sides: [u32; 2],
     /// Least and greatest number of images a level.
     pub layers: [u32; 2],
+    /// Where each layer has twice the cells of the one before: the fewest of the first. A cell has two texels or more, so
+    /// the width bounds the layers too.
+    pub least_cells: Option<u32>,
     /// Its levels.
     pub mips: Mips,
     /// Addressing.
@@ -261,10 +264,12 @@ impl RoleSpec {
         if self.size[0] == self.size[1] && width != height {
             return bad("height", height, format!("{width}, as the width"));
         }
-        let [least, most] = self.layers;
+        let [least, most] = [self.layers[0], self.most_layers(width)];
         if !(least..=most).contains(&layers) {
             let expected = if least == most {
                 least.to_string()
+            } else if most < self.layers[1] {
+                format!("{least} to {most} at this width: the finest cell has two texels or more")
             } else {
                 format!("{least} to {most}")
             };
@@ -272,11 +277,37 @@ impl RoleSpec {
         }
         Ok(())
     }
+
+    /// The greatest number of images a level at this width.
+    fn most_layers(&self, width: u32) -> u32 {
+        let most = self.layers[1];
+        let doublings = |cells: u32| (width / 2 / cells).checked_ilog2().unwrap_or(0);
+        self.least_cells
+            .map_or(most, |cells| most.min(1 + doublings(cells)))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_finest_cell_of_an_octave_has_two_texels() {
+        let fbm = Role::Fbm.spec();
+        let most = [64, 128, 256, 512, 1024].map(|width| fbm.most_layers(width));
+        assert_eq!(most, [4, 5, 6, 7, 8]);
+        let refused = |width, layers| {
+            let error = fbm.verify_size("f", "", [width, width, layers]);
+            error.err().map(|error| error.to_string())
+        };
+        assert_eq!(refused(64, 4), None);
+        assert_eq!(refused(1024, 8), None);
+        for (width, layers) in [(64, 7), (64, 8), (128, 8)] {
+            let error = refused(width, layers).unwrap();
+            assert!(error.starts_with(&format!("f: layers is {layers}, expected 1 to ")));
+        }
+        assert_eq!(Role::Skybox.spec().most_layers(16), 6);
+    }
 
     #[test]
     fn levels_are_as_many_as_said() {

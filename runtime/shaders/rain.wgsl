@@ -14,9 +14,10 @@ struct RainUniforms {
 
 struct RainVaryings {
     @builtin(position) position: vec4f,
-    // x: across, y: along the streak, both -1 to 1; z: opacity of its middle
-    @location(0) place: vec3f,
-    @location(1) @interpolate(flat) colour: vec3f,
+    // x: across, y: along the streak, both -1 to 1
+    @location(0) place: vec2f,
+    // rgb: radiance, as the target has it; w: opacity of its middle
+    @location(1) @interpolate(flat) colour: vec4f,
 }
 
 // A hash of 32 bits: the finaliser of MurmurHash3, A. Appleby, 2011.
@@ -49,7 +50,7 @@ fn vs_rain(@builtin(vertex_index) index: u32) -> RainVaryings {
     let times = (u32(own.y) + u32(fallen)) & 0xffffu;
     let shares = rain_shares(rain_hash((times << 15u) | number));
     if shares.w >= rain.right.w {
-        return RainVaryings(vec4f(0.0, 0.0, 0.0, 1.0), vec3f(0.0), vec3f(0.0));
+        return RainVaryings(vec4f(0.0, 0.0, 0.0, 1.0), vec2f(0.0), vec4f(0.0));
     }
     let radius = own.z + own.w * shares.y;
     let height = RAIN_HEIGHT * (0.5 - fract(fallen));
@@ -76,13 +77,15 @@ fn vs_rain(@builtin(vertex_index) index: u32) -> RainVaryings {
         dot(position, uniforms.camera.clip_w.xyz),
     );
     let colour = display_colour(rain.streak.rgb);
-    return RainVaryings(vec4f(clip.xy, FAR_DEPTH * clip.z, clip.z), vec3f(side, opacity), colour);
+    return RainVaryings(vec4f(clip.xy, FAR_DEPTH * clip.z, clip.z), side, vec4f(colour, opacity));
 }
 
 @fragment
 fn fs_rain(in: RainVaryings) -> @location(0) vec4f {
-    let profile = max(1.0 - abs(in.place.x), 0.0) * max(1.0 - in.place.y * in.place.y, 0.0);
-    return vec4f(in.colour, in.place.z * profile);
+    let profile = (1.0 - abs(in.place.x)) * (1.0 - in.place.y * in.place.y);
+    // A ray along the fall never meets the plane of a streak, yet rounding may give it the pixel: its place there is not a number.
+    let is_met = abs(in.place.x) < 1.0 && abs(in.place.y) < 1.0;
+    return vec4f(in.colour.rgb, select(0.0, in.colour.w * profile, is_met));
 }
 
 // What the haze leaves of what is seen along a unit direction, and its own light.

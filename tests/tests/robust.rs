@@ -13,7 +13,8 @@ const SIZE: [u32; 2] = [65, 49];
 fn assert_light(pack: &Pack, cases: &[(SkyParams, Camera, f64)]) {
     let mut sky = gpu::sky(pack, FORMAT);
     for (params, camera, seconds) in cases {
-        let target = gpu::target(FORMAT, SIZE, 1);
+        let size = camera.viewport_px.map(|side| side.max(1));
+        let target = gpu::target(FORMAT, size, 1);
         gpu::prepare(&mut sky, params, camera, *seconds);
         gpu::pass(&target, None, None, |pass| sky.draw(pass));
         for (index, texel) in gpu::read(&target).iter().enumerate() {
@@ -77,6 +78,102 @@ fn with_the_sun_exactly_at_the_zenith_on_the_horizon_and_at_the_nadir() {
         }
     }
     assert_light(&overhead, &cases);
+}
+
+/// Numbers as if by chance: a 64-bit linear congruential generator (D. E. Knuth, MMIX), upper bits.
+struct Draw(u64);
+
+impl Draw {
+    fn of<T: Copy>(&mut self, choices: &[T]) -> T {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        choices[(self.0 >> 33) as usize % choices.len()]
+    }
+}
+
+/// Corners of what a camera and the weather may be: straight up and down, the narrowest and the widest view, one pixel, on the
+/// ground, in a cloud and above them.
+fn corner(draw: &mut Draw, method: Method, sky: SkyModel) -> (SkyParams, Camera, f64) {
+    let (half_pi, turn) = (std::f32::consts::FRAC_PI_2, std::f32::consts::TAU);
+    let elevation = [
+        -half_pi,
+        half_pi,
+        0.0,
+        -1e-4,
+        1e-4,
+        half_pi - 1e-4,
+        -1.4,
+        0.3,
+    ];
+    let fov_deg = [150.0_f32, 150.0, 120.0, 90.0, 1.0, 0.01, 177.0];
+    let size = draw.of(&[[1, 1], [1, 1], [1, 3], [3, 1], [2, 2], [5, 3]]);
+    let fov_rad = draw.of(&fov_deg).to_radians();
+    let azimuth = draw.of(&[0.0, half_pi, turn / 2.0, 1.0]);
+    let mut camera = Camera::looking(azimuth, draw.of(&elevation), fov_rad, size);
+    camera.position_m.y = draw.of(&[0.0, 0.0, 2.0, 1250.0, 7600.0, 20_000.0, -1.0]);
+    let mut params = SkyParams {
+        method,
+        sky,
+        cover: draw.of(&[0.0, 0.5, 1.0]),
+        height: draw.of(&[0.0, 1.0]),
+        density: draw.of(&[0.0, 1.0]),
+        sunset: draw.of(&[0.0, 1.0]),
+        speed: draw.of(&[0.0, 1.0]),
+        time: draw.of(&[0.0, 0.25, 0.5, 0.75]),
+        flare: draw.of(&[0.0, 1.0]),
+        upper_layer: draw.of(&[0.0, 1.0]),
+        skybox: draw.of(&[0.0, 1.0]),
+        ..SkyParams::default()
+    };
+    params.weather = WeatherParams {
+        rays: draw.of(&[0.0, 1.0]),
+        rain: draw.of(&[0.0, 0.1, 0.5, 1.0]),
+        lightning: Lightning {
+            strength: draw.of(&[0.0, 1.0]),
+            start_s: 10.0,
+            place_m: draw.of(&[[0.0, 0.0], [2.0, -2.5], [1e6, 1e6]]),
+        },
+    };
+    (params, camera, draw.of(&[0.0, 10.01, 3.3]))
+}
+
+#[test]
+fn at_the_corners_of_camera_and_weather() {
+    let mut draw = Draw(1);
+    let mut cases = Vec::new();
+    for method in Method::ALL {
+        for sky in SkyModel::ALL {
+            cases.extend((0..8).map(|_| corner(&mut draw, method, sky)));
+        }
+    }
+    assert_light(pack::default_pack(), &cases);
+}
+
+/// A ray along the fall of the rain never meets the planes that its streaks lie in.
+#[test]
+fn straight_along_the_fall_of_rain() {
+    let half_pi = std::f32::consts::FRAC_PI_2;
+    let mut cases = Vec::new();
+    for (elevation, rain) in [
+        (-half_pi, 0.1),
+        (-half_pi, 0.5),
+        (-half_pi, 1.0),
+        (half_pi, 1.0),
+    ] {
+        for size in [[1, 1], [3, 3], [5, 1]] {
+            let mut params = SkyParams {
+                speed: 0.0,
+                ..SkyParams::default()
+            };
+            params.weather.rain = rain;
+            let fov_rad = 150.0_f32.to_radians();
+            let camera = Camera::looking(0.0, elevation, fov_rad, size);
+            cases.extend([0.0, 1.7].map(|seconds| (params, camera, seconds)));
+        }
+    }
+    assert_light(pack::default_pack(), &cases);
 }
 
 /// Every number set to the same.

@@ -10,7 +10,8 @@ use super::rule::{
 use super::spectrum::Spectrum;
 use super::{subject, tiling};
 use crate::manifest::{FractalNoise, TextureEntry};
-use crate::{Format, Image, Role, Texture};
+use crate::view::View;
+use crate::{Format, Role, Texture};
 
 const PHOTO: usize = 0;
 const NOISE: usize = 1;
@@ -36,7 +37,7 @@ const LEAST_PHOTO_WAVES: f64 = 6.0;
 
 /// `entry` is what the manifest says of it, if it is in a pack.
 pub(super) fn check(report: &mut Report, texture: &Texture, entry: Option<&TextureEntry>) {
-    check_character(report, &texture.image(0, 0), entry);
+    check_character(report, texture, entry);
     for channel in [PHOTO, NOISE, DETAIL] {
         tiling::check_seam(report, Role::Clouds, texture, channel);
         let wave = if channel == DETAIL {
@@ -46,7 +47,7 @@ pub(super) fn check(report: &mut Report, texture: &Texture, entry: Option<&Textu
         };
         tiling::check_smooth(report, Role::Clouds, texture, channel, wave);
         // A channel of two values with mean 0.5 has spread 0.5; one of a dozen byte steps about 0.02.
-        let spread = f64::from(texture.image(0, 0).mean_and_spread(channel).1);
+        let spread = f64::from(texture.view(0, 0).mean_and_spread(channel).1);
         report.measure(
             CLOUD_SPREAD,
             &subject(Role::Clouds, channel),
@@ -59,15 +60,16 @@ pub(super) fn check(report: &mut Report, texture: &Texture, entry: Option<&Textu
 }
 
 /// What tells the three channels from each other and from anything else.
-fn check_character(report: &mut Report, image: &Image, entry: Option<&TextureEntry>) {
-    let ranks = [PHOTO, NOISE, DETAIL].map(|channel| character::ranks(image, channel));
+fn check_character(report: &mut Report, texture: &Texture, entry: Option<&TextureEntry>) {
+    let (image, view) = (texture.view(0, 0), character::view(texture));
+    let ranks = [PHOTO, NOISE, DETAIL].map(|channel| character::ranks(view, channel));
     for (channel, ranks) in ranks.iter().enumerate() {
         let name = subject(Role::Clouds, channel);
         check_clear(report, image, channel);
         let noise = entry.and_then(|e| e.channels.get(channel)?.fractal.as_ref());
-        let spectrum = Spectrum::new(ranks, 0);
+        let spectrum = Spectrum::new(ranks.width, ranks.channel(0));
         let least = match noise {
-            Some(noise) => character::least_waves(noise, image.width),
+            Some(noise) => character::least_waves(noise, view.width),
             None if channel == PHOTO => LEAST_PHOTO_WAVES,
             None => character::STRIPES,
         };
@@ -95,7 +97,7 @@ fn check_character(report: &mut Report, image: &Image, entry: Option<&TextureEnt
 }
 
 /// Channels end at 0 with a share of quite clear texels, and touch 1: neither their inverse does, nor what was shifted.
-fn check_clear(report: &mut Report, image: &Image, channel: usize) {
+fn check_clear(report: &mut Report, image: View, channel: usize) {
     let name = subject(Role::Clouds, channel);
     let count = f64::from(image.width) * f64::from(image.height);
     let clear = image.channel(channel).filter(|v| *v == 0.0).count() as f64;
@@ -113,13 +115,13 @@ fn check_clear(report: &mut Report, image: &Image, channel: usize) {
 
 fn check_fractal(
     report: &mut Report,
-    image: &Image,
+    image: View,
     channel: usize,
     noise: &FractalNoise,
     spectrum: &Spectrum,
 ) {
     let name = subject(Role::Clouds, channel);
-    let expected = character::expected_band(noise, image.width);
+    let expected = character::expected_band(noise, spectrum.size());
     let slack = character::band_slack(noise);
     report.measure(
         CLOUD_BAND,
@@ -184,7 +186,7 @@ fn check_cover(report: &mut Report, texture: &Texture) {
 }
 
 fn histogram(texture: &Texture, channel: usize) -> Vec<f64> {
-    let image = texture.image(0, 0);
+    let image = texture.view(0, 0);
     let mut bins = vec![0.0; 256];
     let share = 1.0 / (f64::from(image.width) * f64::from(image.height));
     for value in image.channel(channel) {
@@ -197,7 +199,7 @@ fn check_gradient(report: &mut Report, texture: &Texture) {
     let name = subject(Role::Clouds, GRADIENT);
     let (mut fall, mut ends) = (0.0_f32, 0.0_f32);
     for level in 0..texture.levels.len() {
-        let image = texture.image(level, 0);
+        let image = texture.view(level, 0);
         let at = |x: u32, y: u32| image.texel(x, y)[GRADIENT];
         for y in 0..image.height {
             for x in 0..image.width {
@@ -221,7 +223,7 @@ fn check_gradient(report: &mut Report, texture: &Texture) {
         f64::from(ends),
         Bound::AtMost(f64::from(texture.format.quantisation_error(1.0))),
     );
-    let image = texture.image(0, 0);
+    let image = texture.view(0, 0);
     let step = (1..image.height)
         .map(|y| image.texel(0, y)[GRADIENT] - image.texel(0, y - 1)[GRADIENT])
         .fold(0.0, f32::max);

@@ -7,8 +7,9 @@ use super::report::{Bound, Report};
 use super::rule::{DISPLACED, OCTAVE_BAND, OCTAVE_EVEN};
 use super::spectrum::Spectrum;
 use super::{subject, tiling};
-use crate::mapping::FBM_STEPS_A_TILE;
-use crate::{Image, Role, Texture};
+use crate::mapping::{FBM_LEAST_CELLS, FBM_STEPS_A_TILE};
+use crate::view::View;
+use crate::{Role, Texture};
 use band::Interpolation;
 
 /// The channel of the noise itself; the channels before it are three, two and one steps away.
@@ -19,15 +20,12 @@ const NOISE: usize = 3;
 /// 26/35 of it in either direction: the mean of `h(t)^2 + h(1 - t)^2`.
 const ROUNDING: f64 = 1.0 / (255.0 * 255.0) / (26.0 * 26.0 / (35.0 * 35.0));
 
-/// The fewest cells of a first layer.
-const LEAST_CELLS: u32 = 4;
-
 pub(super) fn check(report: &mut Report, texture: &Texture) {
-    let layers: Vec<Image> = (0..texture.layers).map(|i| texture.image(0, i)).collect();
+    let layers: Vec<View> = (0..texture.layers).map(|i| texture.view(0, i)).collect();
     for channel in 0..NOISE {
         let worst = layers
             .iter()
-            .map(|image| displacement(image, channel))
+            .map(|view| displacement(*view, channel))
             .fold(0.0, f32::max);
         // Both come from the same numbers, so a step of a byte is rounding.
         report.measure(
@@ -44,7 +42,7 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
 }
 
 /// The largest difference between a channel and the noise that many steps to the right.
-fn displacement(image: &Image, channel: usize) -> f32 {
+fn displacement(image: View, channel: usize) -> f32 {
     let away = (NOISE - channel) as u32 * image.width / FBM_STEPS_A_TILE;
     let texels = (0..image.width * image.height).map(|i| (i % image.width, i / image.width));
     texels
@@ -57,15 +55,16 @@ fn displacement(image: &Image, channel: usize) -> f32 {
 
 /// Noise on a lattice of `c` cells lies below the wave number `c`, and a good part of it above `c / 2`,
 /// where the octave before ends. The first layer tells what `c` is: each has twice that of the one before.
-fn check_bands(report: &mut Report, layers: &[Image]) {
-    let spectra: Vec<Spectrum> = layers.iter().map(|i| Spectrum::new(i, NOISE)).collect();
+fn check_bands(report: &mut Report, layers: &[View]) {
+    let spectrum = |view: &View| Spectrum::new(view.width, view.channel(NOISE));
+    let spectra: Vec<Spectrum> = layers.iter().map(spectrum).collect();
     let Some(size) = layers.first().map(|image| image.width) else {
         return;
     };
     let cells = cells_of_the_first(&spectra, size);
     for (index, spectrum) in spectra.iter().enumerate() {
-        let (cells, layer) = (cells << index, index + 1);
-        check_even(report, &layers[index], cells, layer);
+        let (cells, layer) = ((cells << index).min(size / 2), index + 1);
+        check_even(report, layers[index], cells, layer);
         let octave = Interpolation::new(size, cells);
         let mut measure = |cut: u32, bound| {
             let name = format!("{} {layer} below {cut}", subject(Role::Fbm, NOISE));
@@ -83,7 +82,7 @@ fn check_bands(report: &mut Report, layers: &[Image]) {
 ///
 /// Of `n` independent values it exceeds `e` with a probability of at most `2 exp(-2 n e^2)` (P. Massart, "The tight
 /// constant in the Dvoretzky-Kiefer-Wolfowitz inequality", Annals of Probability 18, 1990).
-fn check_even(report: &mut Report, image: &Image, cells: u32, layer: usize) {
+fn check_even(report: &mut Report, image: View, cells: u32, layer: usize) {
     let step = (image.width / cells).max(1);
     let lattice = (0..image.height).step_by(step as usize);
     let lattice =
@@ -112,9 +111,10 @@ fn check_even(report: &mut Report, image: &Image, cells: u32, layer: usize) {
 /// The least power of two below which the first layer has the energy that it should have. Its bound is so
 /// near to 1 that no sound octave reaches that of half its cells.
 fn cells_of_the_first(spectra: &[Spectrum], size: u32) -> u32 {
-    // The finest cell of the last layer has two texels.
-    let most = (size / 2) >> (spectra.len() - 1);
-    let candidates = (0..).map(|i| LEAST_CELLS << i).take_while(|&n| n < most);
+    // The finest cell of the last layer has two texels; the layout is refused if that leaves the first too few.
+    let most = (size >> spectra.len()).max(FBM_LEAST_CELLS);
+    let candidates = (0..).map(|i| FBM_LEAST_CELLS << i);
+    let candidates = candidates.take_while(|&n| n < most);
     let fits = |cells: u32| {
         let least = Interpolation::new(size, cells).share_below(cells)[0];
         share(&spectra[0], cells) >= least - ROUNDING

@@ -2,14 +2,15 @@
 
 use super::report::{Bound, Report};
 use super::rule::{FLARE_CELLS, FLARE_SHAPE};
-use crate::{FlareCell, Image, Role, Texture};
+use crate::view::View;
+use crate::{FlareCell, Role, Texture};
 
 const NAME: &str = Role::Flares.name();
 
 /// Looks at level 0: every cell must have light, and none along its border, where filtering would take
 /// it into the next cell.
 pub(super) fn check(report: &mut Report, texture: &Texture) {
-    let image = texture.image(0, 0);
+    let image = texture.view(0, 0);
     let cell = image.width / FlareCell::A_SIDE;
     let edge = FlareCell::BORDER_TEXELS..cell - FlareCell::BORDER_TEXELS;
     let mut brightest_border = 0.0_f32;
@@ -31,7 +32,7 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         );
     }
     for part in FlareCell::ALL {
-        check_shape(report, &image, part);
+        check_shape(report, image, part);
     }
     report.measure(
         FLARE_CELLS,
@@ -48,7 +49,7 @@ const RIM: [f64; 2] = [0.6, 0.8];
 
 /// Each part has what no other has: the disc is full to its rim, the ring is empty in the middle, the glow has faded at
 /// the rim but not near the middle, the starburst has faded near the middle already.
-fn check_shape(report: &mut Report, image: &Image, part: FlareCell) {
+fn check_shape(report: &mut Report, image: View, part: FlareCell) {
     let (place, bound, measured) = match part {
         FlareCell::Disc => (
             "near and rim",
@@ -76,7 +77,7 @@ fn check_shape(report: &mut Report, image: &Image, part: FlareCell) {
 }
 
 /// Mean light between two distances from the middle of a cell.
-fn light(image: &Image, part: FlareCell, [from, to]: [f64; 2]) -> f64 {
+fn light(image: View, part: FlareCell, [from, to]: [f64; 2]) -> f64 {
     let cell = image.width / FlareCell::A_SIDE;
     let [left, top] = part.place().map(|i| i * cell);
     let unit = |i: u32| (f64::from(i) + 0.5) / f64::from(cell) * 2.0 - 1.0;

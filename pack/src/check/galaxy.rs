@@ -3,14 +3,15 @@
 use super::report::{Bound, Report};
 use super::rule::{GALAXY_BAND, GALAXY_BRIGHTNESS};
 use crate::mapping::galaxy_uv_to_direction;
-use crate::{Image, Role, Texture};
+use crate::view::View;
+use crate::{Role, Texture};
 
 /// The largest share of the light's second moment across a band: half way between none and the third of an even sky.
 const MOST_ACROSS: f64 = 1.0 / 6.0;
 
 /// Looks at the texels above the horizon: the brightest must be seen, the mean must leave dark sky.
 pub(super) fn check(report: &mut Report, texture: &Texture) {
-    let image = texture.image(0, 0);
+    let image = texture.view(0, 0);
     let (mut brightest, mut sum, mut count) = (0.0_f32, 0.0_f64, 0.0_f64);
     for y in 0..image.height {
         for x in 0..image.width {
@@ -39,17 +40,12 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         sum / count,
         Bound::AtMost(0.5),
     );
-    report.measure(
-        GALAXY_BAND,
-        name,
-        across(&image),
-        Bound::AtMost(MOST_ACROSS),
-    );
+    report.measure(GALAXY_BAND, name, across(image), Bound::AtMost(MOST_ACROSS));
 }
 
 /// The smallest eigenvalue of the mean of `d d^T` over directions `d`, weighted by brightness: the mean square of the sine of
 /// the distance from the great circle that fits best, and a third where light is even or scattered.
-fn across(image: &Image) -> f64 {
+fn across(image: View) -> f64 {
     let (mut moment, mut light) = ([[0.0_f64; 3]; 3], 0.0_f64);
     for (x, y) in (0..image.height).flat_map(|y| (0..image.width).map(move |x| (x, y))) {
         let [u, v] = [x, y].map(|i| (i as f32 + 0.5) / image.width as f32);

@@ -8,7 +8,8 @@ use super::rule::{
 };
 use super::{subject, tiling, unevenness};
 use crate::texture::unorm8;
-use crate::{Image, LayerKind, Role, Texture};
+use crate::view::{Texel, View};
+use crate::{LayerKind, Role, Texture};
 
 const DENSITY: usize = 2;
 const RANK: usize = 3;
@@ -42,10 +43,10 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
     }
     for (layer, kind) in (0..texture.layers).zip(LayerKind::ALL) {
         let levels = 0..texture.levels.len();
-        let levels: Vec<Image> = levels.map(|level| texture.image(level, layer)).collect();
-        check_amounts(report, &levels[0], kind);
+        let levels: Vec<View> = levels.map(|level| texture.view(level, layer)).collect();
+        check_amounts(report, levels[0], kind);
         check_normals(report, &levels, kind);
-        check_ranks(report, &levels[0], kind);
+        check_ranks(report, levels[0], kind);
     }
 }
 
@@ -54,7 +55,7 @@ fn layer_name(kind: LayerKind) -> String {
     format!("{} {}", Role::Layers.name(), kind.name())
 }
 
-fn check_amounts(report: &mut Report, level: &Image, kind: LayerKind) {
+fn check_amounts(report: &mut Report, level: View, kind: LayerKind) {
     let name = format!("{} {}", subject(Role::Layers, DENSITY), kind.name());
     let (density, spread) = level.mean_and_spread(DENSITY);
     // As wide as the channels of the role `clouds`.
@@ -75,31 +76,31 @@ fn check_amounts(report: &mut Report, level: &Image, kind: LayerKind) {
     );
 }
 
-fn check_normals(report: &mut Report, levels: &[Image], kind: LayerKind) {
+fn check_normals(report: &mut Report, levels: &[View], kind: LayerKind) {
     let name = layer_name(kind);
-    let length = normals::longest(&levels[0]);
+    let length = normals::longest(levels[0]);
     report.measure(NORMAL_UNIT, &name, length, Bound::AtMost(1.0));
     let steps = levels.windows(2);
-    let steps = steps.map(|pair| normals::off_the_mean(&pair[0], &pair[1]));
+    let steps = steps.map(|pair| normals::off_the_mean(pair[0], pair[1]));
     report.measure(
         NORMAL_UNIT,
         &format!("{name} levels"),
         steps.fold(0.0, f64::max),
         Bound::AtMost(1.0),
     );
-    let disagreement = normals::disagreement(&levels[0], DENSITY);
+    let disagreement = normals::disagreement(levels[0], DENSITY);
     report.measure(NORMAL_SLOPE, &name, disagreement, Bound::AtMost(1.0));
     report.measure(
         NORMAL_SLOPE,
         &format!("{name} relief"),
-        normals::relief(&levels[0]),
+        normals::relief(levels[0]),
         Bound::AtLeast(LEAST_RELIEF),
     );
 }
 
-fn check_ranks(report: &mut Report, image: &Image, kind: LayerKind) {
+fn check_ranks(report: &mut Report, image: View, kind: LayerKind) {
     let name = layer_name(kind);
-    let pairs = image.texels.chunks_exact(image.channels);
+    let pairs = image.texels();
     let pairs = pairs.map(|texel| [texel[DENSITY], texel[RANK]].map(unorm8));
     let uneven = unevenness(pairs.clone().map(|[_, rank]| rank));
     report.measure(RANK_FLAT, &name, uneven as f64, Bound::AtMost(0.0));
@@ -108,12 +109,12 @@ fn check_ranks(report: &mut Report, image: &Image, kind: LayerKind) {
 }
 
 /// The four texels that a texel of the next level is made from.
-fn under(above: &Image, x: u32, y: u32) -> [&[f32]; 4] {
+fn under(above: View, x: u32, y: u32) -> [Texel; 4] {
     let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
     corners.map(|(i, j)| above.texel(2 * x + i, 2 * y + j))
 }
 
-fn texels(image: &Image) -> impl Iterator<Item = (u32, u32)> + use<> {
+fn texels(image: View) -> impl Iterator<Item = (u32, u32)> + use<> {
     let (width, height) = (image.width, image.height);
     (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
 }

@@ -3,7 +3,8 @@
 use super::report::{Bound, Report};
 use super::rule::{LEVEL_MEAN, MIP_MEAN};
 use super::subject;
-use crate::{Format, Image, Role, Texture};
+use crate::view::View;
+use crate::{Format, Role, Texture};
 
 /// Checks every channel that is averaged over area. Levels of stars and sprites, the sunset gradient and normals have
 /// rules of their own.
@@ -20,17 +21,17 @@ pub(super) fn check(report: &mut Report, role: Role, texture: &Texture) {
     let mut drifts = vec![0.0_f32; channels.len()];
     let mut steps = vec![0.0_f64; channels.len()];
     for layer in 0..texture.layers {
-        let mut above = texture.image(0, layer);
+        let mut above = texture.view(0, layer);
         let means: Vec<f32> = channels
             .iter()
             .map(|&c| above.mean_and_spread(c).0)
             .collect();
         for level in 1..texture.levels.len() {
-            let image = texture.image(level, layer);
+            let image = texture.view(level, layer);
             for (i, &channel) in channels.iter().enumerate() {
-                let drift = drift(texture.format, &image, channel, means[i]);
+                let drift = drift(texture.format, image, channel, means[i]);
                 drifts[i] = drifts[i].max(drift);
-                let off = off_the_mean(texture.format, &above, &image, channel);
+                let off = off_the_mean(texture.format, above, image, channel);
                 steps[i] = steps[i].max(off);
             }
             above = image;
@@ -46,7 +47,7 @@ pub(super) fn check(report: &mut Report, role: Role, texture: &Texture) {
 }
 
 /// The difference of a level's mean from that of level 0, over what rounding explains.
-fn drift(format: Format, image: &Image, channel: usize, base: f32) -> f32 {
+fn drift(format: Format, image: View, channel: usize, base: f32) -> f32 {
     // Every texel of both levels was rounded by half a step at most; halves have steps of 2^-24 near 0.
     let step = match format {
         Format::Rgba16Float => base.abs() / 512.0 + HALF_FLOAT_STEP as f32,
@@ -59,7 +60,7 @@ fn drift(format: Format, image: &Image, channel: usize, base: f32) -> f32 {
 const HALF_FLOAT_STEP: f64 = 1.0 / 16_777_216.0;
 
 /// The largest difference of a texel from the mean of those above it, over what rounding explains: half a step of both.
-fn off_the_mean(format: Format, above: &Image, level: &Image, channel: usize) -> f64 {
+fn off_the_mean(format: Format, above: View, level: View, channel: usize) -> f64 {
     let [step_x, step_y] = [above.width / level.width, above.height / level.height];
     let mut worst = 0.0_f64;
     for y in 0..level.height {

@@ -38,7 +38,7 @@ fn check_flat(report: &mut Report, texture: &Texture, channel: usize) {
 /// The spectrum of white noise: at every wave vector the energy, over its mean, is half of chi squared of
 /// two degrees of freedom; summed over a band it is chi squared of as many degrees as there are vectors.
 fn check_white(report: &mut Report, texture: &Texture, channel: usize) {
-    let spectrum = Spectrum::new(&texture.image(0, 0), channel);
+    let spectrum = Spectrum::new(texture.width, texture.view(0, 0).channel(channel));
     let (total, vectors) = spectrum.ring(1..=BANDS[3][1]);
     let name = subject(Role::Octaves, channel);
     if total <= 0.0 {

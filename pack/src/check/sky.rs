@@ -3,7 +3,8 @@
 use super::report::{Bound, Report};
 use super::rule::{SKY_COLOUR, SKY_DAY, SKY_HOURS, SKY_NIGHT, SKY_RANGE, SKY_STEP};
 use crate::mapping::{night_share, sun_direction};
-use crate::{Image, Role, Texture};
+use crate::view::View;
+use crate::{Role, Texture};
 
 const NAME: &str = Role::Sky.name();
 
@@ -13,9 +14,11 @@ const CIVIL_DEG: f32 = 6.0;
 
 /// `noon_elevation_rad` is what the manifest says, if there is one.
 pub(super) fn check(report: &mut Report, texture: &Texture, noon_elevation_rad: Option<f32>) {
-    let image = texture.image(0, 0);
-    let colours = || image.texels.chunks_exact(4).flat_map(|t| &t[..3]);
-    let wrong = colours().filter(|v| !v.is_finite() || **v < 0.0).count();
+    let image = texture.view(0, 0);
+    let colours = image
+        .texels()
+        .flat_map(|[red, green, blue, _]| [red, green, blue]);
+    let wrong = colours.filter(|v| !v.is_finite() || *v < 0.0).count();
     report.measure(SKY_RANGE, NAME, wrong as f64, Bound::AtMost(0.0));
     if wrong > 0 {
         for rule in [SKY_NIGHT, SKY_HOURS, SKY_COLOUR, SKY_DAY, SKY_STEP] {
@@ -23,13 +26,13 @@ pub(super) fn check(report: &mut Report, texture: &Texture, noon_elevation_rad: 
         }
         return;
     }
-    check_night(report, &image, noon_elevation_rad);
-    check_hours(report, &image, noon_elevation_rad);
-    check_colour(report, &image);
+    check_night(report, image, noon_elevation_rad);
+    check_hours(report, image, noon_elevation_rad);
+    check_colour(report, image);
     let (noon, midnight) = (image.width / 2, 0);
     let mean = |x: u32| {
         (0..image.height)
-            .map(|y| luminance(&image, x, y))
+            .map(|y| luminance(image, x, y))
             .sum::<f64>()
             / f64::from(image.height)
     };
@@ -42,20 +45,20 @@ pub(super) fn check(report: &mut Report, texture: &Texture, noon_elevation_rad: 
         mean(noon) / mean(midnight).max(1e-6),
         Bound::AtLeast(least),
     );
-    let zenith = luminance(&image, noon, image.height - 1).max(1e-6);
+    let zenith = luminance(image, noon, image.height - 1).max(1e-6);
     report.measure(
         SKY_DAY,
         "horizon / zenith",
-        luminance(&image, noon, 0) / zenith,
+        luminance(image, noon, 0) / zenith,
         Bound::AtLeast(1.0),
     );
-    check_steps(report, &image);
+    check_steps(report, image);
 }
 
 /// How far the night share is outside of what the sun's elevation lets it be, at noon and at midnight, and of 0..1 at any time.
 ///
 /// The sun goes round a great circle, so at midnight it stands as far below the horizon as above it at noon.
-fn check_night(report: &mut Report, image: &Image, noon_elevation_rad: Option<f32>) {
+fn check_night(report: &mut Report, image: View, noon_elevation_rad: Option<f32>) {
     let Some(noon_elevation_rad) = noon_elevation_rad else {
         report.skip(SKY_NIGHT, NAME, "no manifest tells how high the sun stands");
         return;
@@ -92,11 +95,11 @@ fn night_shares(elevation_deg: f32) -> [f64; 2] {
 }
 
 /// The night share is a function of the sun's elevation, which time and noon give; the sun's way is symmetric about noon.
-fn check_hours(report: &mut Report, image: &Image, noon_elevation_rad: Option<f32>) {
+fn check_hours(report: &mut Report, image: View, noon_elevation_rad: Option<f32>) {
     let places = || (0..image.height).flat_map(|y| (0..image.width).map(move |x| (x, y)));
     let uneven = places().map(|(x, y)| {
         let evening = image.texel((image.width - x) % image.width, y);
-        let pairs = image.texel(x, y).iter().zip(evening);
+        let pairs = image.texel(x, y).into_iter().zip(evening);
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
     });
     report.measure(
@@ -123,7 +126,7 @@ fn check_hours(report: &mut Report, image: &Image, noon_elevation_rad: Option<f3
 }
 
 /// Air scatters blue more than green and green more than red, and least of all that comes from above is reddened.
-fn check_colour(report: &mut Report, image: &Image) {
+fn check_colour(report: &mut Report, image: View) {
     let zenith = image.texel(image.width / 2, image.height - 1);
     let steps = [zenith[1] - zenith[0], zenith[2] - zenith[1]];
     report.measure(
@@ -137,7 +140,7 @@ fn check_colour(report: &mut Report, image: &Image) {
 /// The largest change of luminance from one time to the next, against the brightest of the whole day.
 ///
 /// With 64 columns or more the sun climbs at most 5.6 degrees a column, and dusk takes it through 18.
-fn check_steps(report: &mut Report, image: &Image) {
+fn check_steps(report: &mut Report, image: View) {
     let brightest = (0..image.width * image.height)
         .map(|i| luminance(image, i % image.width, i / image.width))
         .fold(0.0, f64::max);
@@ -157,7 +160,7 @@ fn check_steps(report: &mut Report, image: &Image) {
 }
 
 /// Luminance of linear BT.709 colour (ITU-R BT.709-6, item 3.2).
-fn luminance(image: &Image, x: u32, y: u32) -> f64 {
+fn luminance(image: View, x: u32, y: u32) -> f64 {
     let t = image.texel(x, y);
     0.2126 * f64::from(t[0]) + 0.7152 * f64::from(t[1]) + 0.0722 * f64::from(t[2])
 }

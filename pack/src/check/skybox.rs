@@ -4,17 +4,16 @@ use super::report::{Bound, Report};
 use super::rule::{SKYBOX_RANGE, SKYBOX_SEAM};
 use super::subject;
 use crate::mapping::cube_texel;
-use crate::{Image, Role, Texture};
+use crate::view::{Texel, View};
+use crate::{Role, Texture};
 
 const NAME: &str = Role::Skybox.name();
 const COVER: usize = 3;
 
 pub(super) fn check(report: &mut Report, texture: &Texture) {
-    let wrong: usize = (0..texture.levels.len())
-        .map(|level| out_of_range(&texture.stacked(level)))
-        .sum();
+    let wrong: usize = texture.views().map(out_of_range).sum();
     report.measure(SKYBOX_RANGE, NAME, wrong as f64, Bound::AtMost(0.0));
-    let faces: Vec<Image> = (0..texture.layers).map(|f| texture.image(0, f)).collect();
+    let faces: Vec<View> = (0..texture.layers).map(|f| texture.view(0, f)).collect();
     for channel in 0..=COVER {
         let name = subject(Role::Skybox, channel);
         if wrong > 0 {
@@ -27,13 +26,12 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
 }
 
 /// Texels with a value that no skybox has.
-fn out_of_range(image: &Image) -> usize {
-    let sound = |texel: &[f32]| {
-        let [.., cover] = texel else { return false };
-        texel.iter().all(|v| v.is_finite() && *v >= 0.0) && *cover <= 1.0
+fn out_of_range(image: View) -> usize {
+    let sound = |texel: &Texel| {
+        let [.., cover] = *texel;
+        texel.iter().all(|v| v.is_finite() && *v >= 0.0) && cover <= 1.0
     };
-    let texels = image.texels.chunks_exact(image.channels);
-    texels.filter(|texel| !sound(texel)).count()
+    image.texels().filter(|texel| !sound(texel)).count()
 }
 
 /// The worst ratio, over the edges of the cube, of the mean difference across the edge to the largest mean
@@ -42,7 +40,7 @@ fn out_of_range(image: &Image) -> usize {
 /// Texels are as far apart across an edge as beside it, so an edge is a place like any other. A lone bright
 /// texel beside an edge makes a difference on both its sides, and two can meet: hence a bound of 2. Faces
 /// that do not belong together differ by the contrast of the whole picture instead.
-fn worst_seam(faces: &[Image], channel: usize) -> f64 {
+fn worst_seam(faces: &[View], channel: usize) -> f64 {
     let mut worst = 0.0_f64;
     for face in 0..faces.len() as u32 {
         for side in Side::ALL {
@@ -64,7 +62,7 @@ fn worst_seam(faces: &[Image], channel: usize) -> f64 {
 const HALF_STEP: f64 = 0.5 / 255.0;
 
 /// A value as the eye weighs it: radiance bent into 0..1, so that a sun counts for no more than a white wall.
-fn seen(faces: &[Image], channel: usize, (face, [x, y]): (u32, [u32; 2])) -> f64 {
+fn seen(faces: &[View], channel: usize, (face, [x, y]): (u32, [u32; 2])) -> f64 {
     let value = f64::from(faces[face as usize].texel(x, y)[channel]);
     if channel == COVER {
         value
@@ -108,7 +106,7 @@ impl Line {
     }
 
     /// The line on the other side of the edge.
-    fn beyond(self, faces: &[Image]) -> Line {
+    fn beyond(self, faces: &[View]) -> Line {
         let size = faces[0].width;
         let (face, [x, y]) = Line { depth: -1, ..self }.texel(size / 2, size);
         let side = match (x, y) {
@@ -124,12 +122,12 @@ impl Line {
         }
     }
 
-    fn across(self, faces: &[Image], channel: usize) -> f64 {
+    fn across(self, faces: &[View], channel: usize) -> f64 {
         self.difference(Line { depth: -1, ..self }, faces, channel)
     }
 
     /// The largest difference between neighbouring lines in the eighth of the face next to the side.
-    fn inside(self, faces: &[Image], channel: usize) -> f64 {
+    fn inside(self, faces: &[View], channel: usize) -> f64 {
         let depths = 1..=(faces[0].width / 8) as i32;
         let pair = |depth| [depth - 1, depth].map(|depth| Line { depth, ..self });
         let differences = depths.map(|depth| {
@@ -140,7 +138,7 @@ impl Line {
     }
 
     /// Mean difference of two lines, texel by texel.
-    fn difference(self, other: Line, faces: &[Image], channel: usize) -> f64 {
+    fn difference(self, other: Line, faces: &[View], channel: usize) -> f64 {
         let size = faces[0].width;
         let at = |line: Line, i: u32| seen(faces, channel, line.texel(i, size));
         let sum: f64 = (0..size).map(|i| (at(self, i) - at(other, i)).abs()).sum();

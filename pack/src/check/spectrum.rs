@@ -8,32 +8,47 @@ use crate::Image;
 type Complex = [f64; 2];
 
 /// `|F(k)|^2` of a square channel without its mean, where `F(k) = sum f(x) exp(-2 pi i k.x / size)`.
+///
+/// The numbers are real, so `F(-k)` is the conjugate of `F(k)`, and half of the plane is kept: of a channel of 4096x4096, the
+/// largest in four channels of 8 bits that a pack holds, 128 MiB.
 pub(super) struct Spectrum {
     size: usize,
-    /// Row by row; wave numbers above `size / 2` stand for negative ones.
-    energy: Vec<f64>,
+    /// Column by column: `kx` from 0 to `size / 2`, in each all `ky`, of which those above `size / 2` stand for negative
+    /// ones.
+    half: Vec<Complex>,
 }
 
 impl Spectrum {
-    /// Of a square image whose side is a power of two.
-    pub(super) fn new(image: &Image, channel: usize) -> Spectrum {
-        let size = image.width as usize;
-        let mut grid: Vec<Complex> = image.channel(channel).map(|v| [v.into(), 0.0]).collect();
+    /// Of `size * size` numbers, row by row; the side is a power of two.
+    pub(super) fn new(size: u32, values: impl IntoIterator<Item = f32>) -> Spectrum {
+        let size = size as usize;
         let turns = turns(size);
-        grid.chunks_exact_mut(size)
-            .for_each(|row| transform(row, &turns));
-        transpose(&mut grid, size);
-        grid.chunks_exact_mut(size)
+        let mut half = vec![[0.0; 2]; (size / 2 + 1) * size];
+        let mut row = vec![[0.0; 2]; size];
+        let mut values = values.into_iter();
+        for y in 0..size {
+            for (place, value) in row.iter_mut().zip(&mut values) {
+                *place = [value.into(), 0.0];
+            }
+            transform(&mut row, &turns);
+            for (kx, value) in row[..=size / 2].iter().enumerate() {
+                half[kx * size + y] = *value;
+            }
+        }
+        half.chunks_exact_mut(size)
             .for_each(|column| transform(column, &turns));
-        transpose(&mut grid, size);
-        let mut energy: Vec<f64> = grid.iter().map(|[re, im]| re * re + im * im).collect();
-        energy[0] = 0.0;
-        Spectrum { size, energy }
+        half[0] = [0.0; 2];
+        Spectrum { size, half }
+    }
+
+    /// Numbers a side.
+    pub(super) fn size(&self) -> u32 {
+        self.size as u32
     }
 
     /// Sum over all wave vectors but 0.
     pub(super) fn total(&self) -> f64 {
-        self.energy.iter().sum()
+        self.vectors().map(|(_, _, energy)| energy).sum()
     }
 
     /// Sum over the wave vectors whose larger component is in `waves`, and how many they are.
@@ -62,8 +77,16 @@ impl Spectrum {
     /// Every wave vector, as two wave numbers, with its energy.
     pub(super) fn vectors(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         let size = self.size;
-        let places = self.energy.iter().enumerate();
-        places.map(move |(i, &energy)| (i % size, i / size, energy))
+        let places = (0..size).flat_map(move |kx| (0..size).map(move |ky| (kx, ky)));
+        places.map(move |(kx, ky)| {
+            let at = if kx <= size / 2 {
+                kx * size + ky
+            } else {
+                (size - kx) * size + (size - ky) % size
+            };
+            let [re, im] = self.half[at];
+            (kx, ky, re * re + im * im)
+        })
     }
 
     /// A wave number without its sign.
@@ -83,7 +106,7 @@ pub fn radial_spectrum(image: &Image, channel: usize) -> Option<Vec<f64>> {
     if !is_fit || !image.channel(channel).all(f32::is_finite) {
         return None;
     }
-    let spectrum = Spectrum::new(image, channel);
+    let spectrum = Spectrum::new(side, image.channel(channel));
     let mut rings = vec![(0.0, 0_usize); side as usize / 2];
     for (kx, ky, energy) in spectrum.vectors() {
         let [x, y] = [kx, ky].map(|k| spectrum.magnitude(k) as f64);
@@ -129,14 +152,6 @@ fn transform(line: &mut [Complex], turns: &[Complex]) {
             }
         }
         half *= 2;
-    }
-}
-
-fn transpose(grid: &mut [Complex], size: usize) {
-    for y in 0..size {
-        for x in 0..y {
-            grid.swap(y * size + x, x * size + y);
-        }
     }
 }
 
@@ -201,14 +216,12 @@ mod tests {
 
     #[test]
     fn a_wave_is_in_its_ring_alone() {
-        let mut image = Image::new(32, 32, 2);
-        for y in 0..32 {
-            for x in 0..32 {
-                let turn = (3 * x + 32 - 5 * y % 32) as f32 / 32.0;
-                image.texel_mut(x, y)[1] = 0.5 + 0.25 * libm::cosf(std::f32::consts::TAU * turn);
-            }
-        }
-        let spectrum = Spectrum::new(&image, 1);
+        let values = (0..1024).map(|i| {
+            let (x, y) = (i % 32, i / 32);
+            let turn = (3 * x + 32 - 5 * y % 32) as f32 / 32.0;
+            0.5 + 0.25 * libm::cosf(std::f32::consts::TAU * turn)
+        });
+        let spectrum = Spectrum::new(32, values);
         // A cosine of amplitude a has two waves with the energy (a n^2 / 2)^2 each.
         let each = libm::pow(0.25 * 1024.0 / 2.0, 2.0);
         let close = |a: f64, b: f64| (a - b).abs() < 1e-4 * each;
@@ -218,5 +231,27 @@ mod tests {
         // 11 wave vectors a side less 9 a side.
         assert_eq!(spectrum.ring(5..=5).1, 121 - 81);
         assert_eq!(spectrum.ring(1..=16).1, 1023);
+    }
+
+    #[test]
+    fn both_halves_of_the_plane_are_the_sum_that_defines_it() {
+        let n = 8;
+        let values: Vec<f32> = (0..n * n).map(|i| (i * i % 11) as f32).collect();
+        let spectrum = Spectrum::new(n as u32, values.clone());
+        assert_eq!(spectrum.vectors().count(), n * n);
+        for (kx, ky, energy) in spectrum.vectors().filter(|(kx, ky, _)| kx + ky > 0) {
+            let mut sum = [0.0, 0.0];
+            for (i, value) in values.iter().enumerate() {
+                let turns = (kx * (i % n) + ky * (i / n)) as f64 / n as f64;
+                let angle = -std::f64::consts::TAU * turns;
+                sum[0] += f64::from(*value) * libm::cos(angle);
+                sum[1] += f64::from(*value) * libm::sin(angle);
+            }
+            let expected = sum[0] * sum[0] + sum[1] * sum[1];
+            assert!(
+                (energy - expected).abs() < 1e-8,
+                "{kx} {ky}: {energy} {expected}"
+            );
+        }
     }
 }

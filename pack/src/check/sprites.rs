@@ -6,7 +6,8 @@ use super::rule::{
 };
 use super::subject;
 use crate::texture::unorm8;
-use crate::{Image, Role, SheetCell, SheetKind, Texture};
+use crate::view::{Texel, View};
+use crate::{Role, SheetCell, SheetKind, Texture};
 
 const NAME: &str = Role::Sprites.name();
 const GREY: usize = 0;
@@ -19,14 +20,16 @@ const LEAST_CORE: f64 = 0.9;
 const MOST_UNEVEN: f64 = 0.02;
 
 pub(super) fn check(report: &mut Report, texture: &Texture) {
-    let levels: Vec<Image> = (0..texture.levels.len())
-        .map(|level| texture.image(level, 0))
-        .collect();
-    let borders = levels.iter().map(brightest_border).fold(0.0, f64::max);
+    let levels: Vec<View> = texture.views().collect();
+    let borders = levels
+        .iter()
+        .copied()
+        .map(brightest_border)
+        .fold(0.0, f64::max);
     report.measure(SPRITE_BORDER, NAME, borders, Bound::AtMost(0.0));
     check_levels(report, &levels);
     let cells: Vec<Cell> = (0..SheetCell::COUNT)
-        .map(|index| Cell::new(&levels[0], SheetCell(index)))
+        .map(|index| Cell::new(levels[0], SheetCell(index)))
         .collect();
     for (index, cell) in cells.iter().enumerate() {
         let [least, most] = SheetCell::OPACITY.map(f64::from);
@@ -65,7 +68,7 @@ fn check_kinds(report: &mut Report, cells: &[Cell]) {
 }
 
 /// The largest opacity of the outermost texels of any cell.
-fn brightest_border(image: &Image) -> f64 {
+fn brightest_border(image: View) -> f64 {
     let last = image.width / SheetCell::A_SIDE - 1;
     let is_border = |i: u32| [0, last].contains(&(i % (last + 1)));
     let border = places(image.width).filter(|&[x, y]| is_border(x) || is_border(y));
@@ -74,9 +77,9 @@ fn brightest_border(image: &Image) -> f64 {
         .fold(0.0, f64::max)
 }
 
-fn check_levels(report: &mut Report, levels: &[Image]) {
-    let worst = |measure: fn(&Image, &Image) -> f64| {
-        let steps = levels.windows(2).map(|pair| measure(&pair[0], &pair[1]));
+fn check_levels(report: &mut Report, levels: &[View]) {
+    let worst = |measure: fn(View, View) -> f64| {
+        let steps = levels.windows(2).map(|pair| measure(pair[0], pair[1]));
         steps.fold(0.0, f64::max)
     };
     // Both levels were rounded: half a step each, and seven digits.
@@ -90,7 +93,7 @@ fn check_levels(report: &mut Report, levels: &[Image]) {
 }
 
 /// By how many steps a texel's opacity differs from the mean of the four above it, borders of cells aside.
-fn off_the_mean(above: &Image, level: &Image) -> f64 {
+fn off_the_mean(above: View, level: View) -> f64 {
     let last = level.width / SheetCell::A_SIDE - 1;
     let is_inside = |i: u32| (1..last).contains(&(i % (last + 1)));
     let inside = places(level.width).filter(|&[x, y]| is_inside(x) && is_inside(y));
@@ -106,7 +109,7 @@ fn off_the_mean(above: &Image, level: &Image) -> f64 {
 }
 
 /// By how many steps a texel's grey, which is a mean by weights, lies outside of the greys above it.
-fn outside_of_those_above(above: &Image, level: &Image) -> f64 {
+fn outside_of_those_above(above: View, level: View) -> f64 {
     let steps = places(level.width).map(|[x, y]| {
         let greys = under(above, [x, y]).map(|t| unorm8(t[GREY]));
         let grey = unorm8(level.texel(x, y)[GREY]);
@@ -119,7 +122,7 @@ fn outside_of_those_above(above: &Image, level: &Image) -> f64 {
 }
 
 /// The four texels that a texel of the next level is made from.
-fn under(above: &Image, [x, y]: [u32; 2]) -> [&[f32]; 4] {
+fn under(above: View, [x, y]: [u32; 2]) -> [Texel; 4] {
     let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
     corners.map(|(i, j)| above.texel(2 * x + i, 2 * y + j))
 }
@@ -131,14 +134,14 @@ fn places(side: u32) -> impl Iterator<Item = [u32; 2]> {
 
 /// A cell of level 0.
 struct Cell<'a> {
-    image: &'a Image,
+    image: View<'a>,
     kind: SheetKind,
     corner: [u32; 2],
     side: u32,
 }
 
-impl Cell<'_> {
-    fn new(image: &Image, cell: SheetCell) -> Cell<'_> {
+impl<'a> Cell<'a> {
+    fn new(image: View<'a>, cell: SheetCell) -> Cell<'a> {
         let side = image.width / SheetCell::A_SIDE;
         Cell {
             image,

@@ -10,7 +10,7 @@ use super::rule::{
     STAR_PHASE, STAR_RATE, STAR_RECORD, STAR_SHARE,
 };
 use super::spectrum::Spectrum;
-use crate::{Image, Role, Texture};
+use crate::{Role, Texture};
 
 const NAME: &str = Role::Stars.name();
 
@@ -27,19 +27,14 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         .count();
     report.measure(STAR_CLIP, NAME, clipped as f64, Bound::AtMost(0.0));
 
-    let width = texture.width as usize;
-    let lit: Vec<[usize; 2]> = texels(0)
-        .enumerate()
-        .filter(|(_, t)| t[0] > 0)
-        .map(|(i, _)| [i % width, i / width])
-        .collect();
-    let share = lit.len() as f64 / texels(0).len() as f64;
+    let stars = lit(texture).count();
+    let share = stars as f64 / texels(0).len() as f64;
     // A lone star is a sky, as over a city; at one star in 16 texels stars touch.
     let one = 1.0 / texels(0).len() as f64;
     report.measure(STAR_SHARE, NAME, share, Bound::Within(one, 1.0 / 16.0));
     check_levels(report, texture);
     check_level_flicker(report, texture);
-    if lit.len() < 20 {
+    if stars < 20 {
         for rule in [
             STAR_FLICKER,
             STAR_BRIGHTEST,
@@ -52,16 +47,21 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         }
         return;
     }
-    let of_stars = |channel: usize| -> Vec<u8> {
-        let stars = texels(0).filter(|t| t[0] > 0);
-        stars.map(|t| t[channel]).collect()
-    };
     check_flicker(report, texture);
-    check_brightest(report, &of_stars(0));
-    check_rates(report, &of_stars(1));
-    check_phases(report, &of_stars(3));
-    check_lattice(report, &lit, texture.width);
-    check_clusters(report, &lit, texture.width, texture.height);
+    check_brightest(report, texture, stars);
+    check_rates(report, texture, stars);
+    check_phases(report, texture, stars);
+    check_lattice(report, texture, stars);
+    check_clusters(report, texture, stars);
+}
+
+/// The stars of level 0: where each is, and its four bytes. There may be millions in a texture that is none, so they are
+/// not kept.
+fn lit(texture: &Texture) -> impl Iterator<Item = ([usize; 2], &[u8])> {
+    let width = texture.width as usize;
+    let texels = texture.levels[0].chunks_exact(4).enumerate();
+    let stars = texels.filter(|(_, texel)| texel[0] > 0);
+    stars.map(move |(i, texel)| ([i % width, i / width], texel))
 }
 
 /// Each texel of a level against the stars under it.
@@ -154,13 +154,10 @@ fn check_level_flicker(report: &mut Report, texture: &Texture) {
 /// The brightest star of `n`: brightness falls by the law N(>I) = I^(-1.25) over five magnitudes at most from 0.8 at
 /// least, and one star is drawn from each of `n` equal shares of it. So the brightest has `0.8 (1 + 10^2.5 / n)^(-0.8)`, less
 /// half a step of rounding.
-fn check_brightest(report: &mut Report, intensities: &[u8]) {
-    let count = intensities.len() as f64;
-    let brightest = intensities
-        .iter()
-        .max()
-        .map_or(0.0, |&i| f64::from(i) / 255.0);
-    let least = 0.8 * libm::pow(1.0 + libm::pow(10.0, 2.5) / count, -0.8) - 0.5 / 255.0;
+fn check_brightest(report: &mut Report, texture: &Texture, stars: usize) {
+    let brightest = lit(texture).map(|(_, texel)| texel[0]).max();
+    let brightest = f64::from(brightest.unwrap_or(0)) / 255.0;
+    let least = 0.8 * libm::pow(1.0 + libm::pow(10.0, 2.5) / stars as f64, -0.8) - 0.5 / 255.0;
     report.measure(STAR_BRIGHTEST, NAME, brightest, Bound::AtLeast(least));
 }
 
@@ -168,22 +165,21 @@ fn check_brightest(report: &mut Report, intensities: &[u8]) {
 const RATES: [f64; 2] = [12.8, 252.8];
 
 /// Pearson's chi-squared test of the rates in bins of 16 bytes.
-fn check_rates(report: &mut Report, rates: &[u8]) {
+fn check_rates(report: &mut Report, texture: &Texture, stars: usize) {
     const BINS: usize = 15;
-    let first = RATES[0] as u8;
-    let outside = rates
-        .iter()
-        .filter(|rate| !(first..=RATES[1] as u8).contains(rate));
+    let [first, last] = RATES.map(|rate| rate as u8);
+    let mut outside = 0;
+    let mut bins = [0.0_f64; BINS];
+    for (_, texel) in lit(texture) {
+        outside += u32::from(!(first..=last).contains(&texel[1]));
+        bins[usize::from(texel[1].saturating_sub(first) / 16).min(BINS - 1)] += 1.0;
+    }
     report.measure(
         STAR_RATE,
         &format!("{NAME} outside"),
-        outside.count() as f64,
+        outside.into(),
         Bound::AtMost(0.0),
     );
-    let mut bins = [0.0_f64; BINS];
-    for rate in rates {
-        bins[usize::from(rate.saturating_sub(first) / 16).min(BINS - 1)] += 1.0;
-    }
     let edge = |bin: usize| (f64::from(first) + 16.0 * bin as f64).max(RATES[0]);
     let chi_squared = bins.iter().enumerate().map(|(bin, &found)| {
         let end = if bin + 1 == BINS {
@@ -191,25 +187,23 @@ fn check_rates(report: &mut Report, rates: &[u8]) {
         } else {
             edge(bin + 1)
         };
-        let expected = rates.len() as f64 * (end - edge(bin)) / (RATES[1] - RATES[0]);
+        let expected = stars as f64 * (end - edge(bin)) / (RATES[1] - RATES[0]);
         (found - expected) * (found - expected) / expected
     });
     report.measure(
         STAR_RATE,
         NAME,
         chi_squared.sum(),
-        Bound::AtMost(counts_quantile(BINS, rates.len() as f64 / BINS as f64)),
+        Bound::AtMost(counts_quantile(BINS, stars as f64 / BINS as f64)),
     );
 }
 
 /// Pearson's chi-squared test of the phases in 16 bins (K. Pearson, 1900).
-fn check_phases(report: &mut Report, phases: &[u8]) {
+fn check_phases(report: &mut Report, texture: &Texture, stars: usize) {
     let mut bins = [0.0_f64; 16];
-    phases
-        .iter()
-        .for_each(|&phase| bins[usize::from(phase >> 4)] += 1.0);
+    lit(texture).for_each(|(_, texel)| bins[usize::from(texel[3] >> 4)] += 1.0);
     // Bytes round to nearest, so byte 0 also stands for what would be 256: half a step, far below the noise.
-    let most = counts_quantile(bins.len(), phases.len() as f64 / bins.len() as f64);
+    let most = counts_quantile(bins.len(), stars as f64 / bins.len() as f64);
     report.measure(STAR_PHASE, NAME, chi_squared(&bins), Bound::AtMost(most));
 }
 
@@ -218,39 +212,39 @@ fn check_phases(report: &mut Report, phases: &[u8]) {
 /// For independent stars S is exponentially distributed with mean 1 at every wave vector, for a lattice
 /// it is N at the lattice's own. Stars that never touch have none of the others in the eight texels beside them: to first
 /// order in the share `c` of texels with a star, `S = 1 - c ((1 + 2 cos kx) (1 + 2 cos ky) - 1)`, which is `1 + 4c` at most.
-fn check_lattice(report: &mut Report, stars: &[[usize; 2]], side: u32) {
-    let mut field = Image::new(side, side, 1);
-    for &[x, y] in stars {
-        field.texel_mut(x as u32, y as u32)[0] = 1.0;
-    }
+fn check_lattice(report: &mut Report, texture: &Texture, stars: usize) {
+    let side = texture.width;
+    let intensities = texture.view(0, 0).channel(0);
+    let is_star = intensities.map(|i| if i > 0.0 { 1.0 } else { 0.0 });
     let half = side as usize / 2;
-    let spectrum = Spectrum::new(&field, 0);
+    let spectrum = Spectrum::new(side, is_star);
     // The conjugate half of the plane says nothing new.
     let one_of_each = |kx: usize, ky: usize| kx < half && (kx > 0 || (1..=half).contains(&ky));
     let peak = spectrum
         .vectors()
         .filter(|&(kx, ky, _)| one_of_each(kx, ky))
-        .map(|(_, _, energy)| energy / stars.len() as f64)
+        .map(|(_, _, energy)| energy / stars as f64)
         .fold(0.0, f64::max);
     let waves = (half * side as usize) as f64;
-    let share = stars.len() as f64 / (f64::from(side) * f64::from(side));
+    let share = stars as f64 / (f64::from(side) * f64::from(side));
     let most = libm::log(waves / FALSE_ALARMS) * (1.0 + 4.0 * share);
     report.measure(STAR_LATTICE, NAME, peak, Bound::AtMost(most));
 }
 
 /// The index of dispersion of counts in cells of about four stars (variance over mean, 1 if independent).
-fn check_clusters(report: &mut Report, stars: &[[usize; 2]], width: u32, height: u32) {
-    let aim = libm::sqrt(stars.len() as f64 / 4.0);
+fn check_clusters(report: &mut Report, texture: &Texture, stars: usize) {
+    let (width, height) = (texture.width as usize, texture.height as usize);
+    let aim = libm::sqrt(stars as f64 / 4.0);
     let mut cells = 2_usize;
     while cells * 2 <= aim as usize {
         cells *= 2;
     }
     let mut counts = vec![0.0; cells * cells];
-    for &[x, y] in stars {
-        counts[(y * cells / height as usize) * cells + x * cells / width as usize] += 1.0;
+    for ([x, y], _) in lit(texture) {
+        counts[(y * cells / height) * cells + x * cells / width] += 1.0;
     }
     let freedom = (counts.len() - 1) as f64;
-    let most = counts_quantile(counts.len(), stars.len() as f64 / counts.len() as f64);
+    let most = counts_quantile(counts.len(), stars as f64 / counts.len() as f64);
     report.measure(
         STAR_CLUSTER,
         NAME,

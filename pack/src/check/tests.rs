@@ -4,6 +4,7 @@ mod field;
 mod forgeries;
 mod layers;
 mod methods;
+mod sizes;
 mod skybox;
 mod sprites;
 mod stars;
@@ -468,6 +469,10 @@ fn faults_of_the_sun_each_have_a_rule() {
         image.texel_mut(middle, middle)[0] = 0.2;
     });
     assert_errors(&["sun-disc", "sun-round"], &hollow);
+    for size in [16, 32] {
+        let black = with(Role::Sun, |image| *image = Image::new(size, size, 2));
+        assert_only("sun-disc", &black);
+    }
     let square = with(Role::Sun, |image| {
         each_texel(image, |_, _, t| t[1] = t[1].max(0.05))
     });

@@ -3,7 +3,8 @@
 use super::report::{Bound, Report};
 use super::rule::{SEAM, SMOOTH};
 use super::subject;
-use crate::{Format, Image, Role, Texture};
+use crate::view::View;
+use crate::{Format, Role, Texture};
 
 /// Compares the difference across the edges with the differences inside, on both axes, every level and layer.
 pub(super) fn check_seam(report: &mut Report, role: Role, texture: &Texture, channel: usize) {
@@ -19,14 +20,14 @@ pub(super) fn check_seam(report: &mut Report, role: Role, texture: &Texture, cha
 pub(super) fn seam(texture: &Texture, channel: usize, levels: usize) -> f64 {
     let mut worst = 0.0_f64;
     let images = (0..levels)
-        .flat_map(|level| (0..texture.layers).map(move |layer| texture.image(level, layer)));
+        .flat_map(|level| (0..texture.layers).map(move |layer| texture.view(level, layer)));
     for image in images {
         for axis in [Axis::X, Axis::Y] {
-            let (inside, across) = differences(&image, channel, axis);
+            let (inside, across) = differences(image, channel, axis);
             let Some(largest) = inside.into_iter().reduce(f64::max) else {
                 continue;
             };
-            let slack = 1.25 + 8.0 / f64::from(axis.length(&image));
+            let slack = 1.25 + 8.0 / f64::from(axis.length(image));
             worst = worst.max(across / ((largest + HALF_STEP) * slack));
         }
     }
@@ -48,7 +49,7 @@ pub(super) fn check_smooth(
     texels_a_wave: f64,
 ) {
     let ratios =
-        (0..texture.layers).map(|i| roughness(&texture.image(0, i), texture.format, channel));
+        (0..texture.layers).map(|i| roughness(texture.view(0, i), texture.format, channel));
     let most = 2.0 * libm::sin(std::f64::consts::PI / texels_a_wave);
     report.measure(
         SMOOTH,
@@ -66,7 +67,7 @@ pub(super) fn check_smooth(
 /// follow each other and make `2 min(d, 1 - d)` steps squared, which is the same half over all slopes. That much is taken
 /// off. Noise of the texels themselves stays: of a third of a step it is as strong as rounding, and no picture can be
 /// smoother than its rounding.
-fn roughness(image: &Image, format: Format, channel: usize) -> f64 {
+fn roughness(image: View, format: Format, channel: usize) -> f64 {
     let (mut first, mut second) = (0.0, 0.0);
     let (width, height) = (image.width, image.height);
     let at = |x: u32, y: u32| f64::from(image.texel(x % width, y % height)[channel]);
@@ -99,7 +100,7 @@ enum Axis {
 }
 
 impl Axis {
-    fn length(self, image: &Image) -> u32 {
+    fn length(self, image: View) -> u32 {
         match self {
             Axis::X => image.width,
             Axis::Y => image.height,
@@ -108,7 +109,7 @@ impl Axis {
 }
 
 /// Root mean square differences between each line and the next, and between the last and the first.
-fn differences(image: &Image, channel: usize, axis: Axis) -> (Vec<f64>, f64) {
+fn differences(image: View, channel: usize, axis: Axis) -> (Vec<f64>, f64) {
     let (length, breadth) = match axis {
         Axis::X => (image.width, image.height),
         Axis::Y => (image.height, image.width),
@@ -130,10 +131,11 @@ fn differences(image: &Image, channel: usize, axis: Axis) -> (Vec<f64>, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::texture::{decode, encode};
+    use crate::texture::encode;
+    use crate::{Image, Shape};
 
     /// Waves of several slopes, from a hundredth of a step of a byte to a whole one a texel, and noise, stored.
-    fn stored(format: Format, slope: f32, noise: f32) -> Image {
+    fn stored(format: Format, slope: f32, noise: f32) -> Texture {
         let size = 256;
         let mut image = Image::new(size, size, 4);
         let turn = |i: u32, waves: u32| std::f32::consts::TAU * (i * waves) as f32 / size as f32;
@@ -147,15 +149,21 @@ mod tests {
             let amplitude = slope * size as f32 / std::f32::consts::TAU;
             texel.fill((amplitude * wave + 2.0 * noise * even) / 255.0 + 0.502);
         }
-        image.texels = decode(format, &encode(format, &image.texels));
-        image
+        Texture {
+            format,
+            shape: Shape::D2,
+            width: size,
+            height: size,
+            layers: 1,
+            levels: vec![encode(format, &image.texels)],
+        }
     }
 
     #[test]
     fn what_is_smooth_stays_smooth_however_fine_its_texels_are() {
         for slope in [0.01, 0.03, 0.1, 0.2, 0.4, 0.6, 1.0] {
             for format in [Format::Rgba8Unorm, Format::Rgba16Float] {
-                let found = roughness(&stored(format, slope, 0.0), format, 0);
+                let found = roughness(stored(format, slope, 0.0).view(0, 0), format, 0);
                 assert!(found < 0.9, "{format:?} {slope}: {found}");
             }
         }
@@ -166,7 +174,7 @@ mod tests {
         for slope in [0.01, 0.1, 0.4] {
             let format = Format::Rgba8Unorm;
             // Even over two steps, so of 0.58 steps: twice what rounding adds.
-            let found = roughness(&stored(format, slope, 1.0), format, 0);
+            let found = roughness(stored(format, slope, 1.0).view(0, 0), format, 0);
             assert!(found > 1.1, "{slope}: {found}");
         }
     }

@@ -2,6 +2,7 @@
 
 use super::{ChannelSpec, Filter, Mips, RoleSpec, Wrap};
 use crate::limits::MAX_SIDE;
+use crate::mapping::FBM_LEAST_CELLS;
 use crate::texel::StarTexel;
 use crate::{Format, Shape};
 
@@ -36,6 +37,7 @@ pub(super) const CLOUDS: RoleSpec = RoleSpec {
     size: [512, 512],
     sides: ANY_SIDE,
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Repeat,
     filter: Filter::Linear,
@@ -58,6 +60,7 @@ pub(super) const STARS: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: ANY_SIDE,
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Repeat,
     filter: Filter::Nearest,
@@ -85,6 +88,7 @@ pub(super) const GALAXY: RoleSpec = RoleSpec {
     size: [128, 128],
     sides: ANY_SIDE,
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Clamp,
     filter: Filter::Linear,
@@ -97,6 +101,7 @@ pub(super) const SKY: RoleSpec = RoleSpec {
     size: [128, 64],
     sides: ANY_SIDE,
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::One,
     wrap: Wrap::Repeat,
     filter: Filter::Linear,
@@ -132,8 +137,10 @@ pub(super) const SUN: RoleSpec = RoleSpec {
     formats: &[Format::Rg8Unorm],
     shape: Shape::D2,
     size: [128, 128],
-    sides: ANY_SIDE,
+    // A smaller disc has no middle: texels about it reach to its edge.
+    sides: [16, MAX_SIDE],
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Clamp,
     filter: Filter::Linear,
@@ -154,6 +161,7 @@ pub(super) const OCTAVES: RoleSpec = RoleSpec {
     size: [32, 32],
     sides: [32, 32],
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::One,
     wrap: Wrap::Repeat,
     filter: Filter::Nearest,
@@ -186,6 +194,7 @@ pub(super) const FBM: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: [64, 1024],
     layers: [1, 8],
+    least_cells: Some(FBM_LEAST_CELLS),
     mips: Mips::One,
     wrap: Wrap::Repeat,
     filter: Filter::Linear,
@@ -213,6 +222,7 @@ pub(super) const FLARES: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: [64, 1024],
     layers: [1, 1],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Clamp,
     filter: Filter::Linear,
@@ -230,6 +240,7 @@ pub(super) const LAYERS: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: [64, 1024],
     layers: [3, 3],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Repeat,
     filter: Filter::Linear,
@@ -264,6 +275,7 @@ pub(super) const SPRITES: RoleSpec = RoleSpec {
     size: [512, 512],
     sides: [128, 2048],
     layers: [1, 1],
+    least_cells: None,
     // Cells of 8 texels: smaller ones would be border and little else.
     mips: Mips::To(32),
     wrap: Wrap::Clamp,
@@ -290,6 +302,7 @@ pub(super) const SKYBOX: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: [16, 2048],
     layers: [6, 6],
+    least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Clamp,
     filter: Filter::Linear,

@@ -1,5 +1,7 @@
 //! Rain: that it falls, and that the shader computes what its twin does.
 
+use std::f32::consts::FRAC_PI_2;
+
 use glam::Vec3;
 use welkin_runtime::uniforms::Uniforms;
 use welkin_runtime::{Camera, Method, SkyParams};
@@ -58,6 +60,29 @@ fn rain_is_the_twins() {
             .map(|(a, h)| a.distance(*h))
             .fold(0.0, f32::max);
         assert!(most > 0.02, "{name}: streaks are there: {most}");
+    }
+}
+
+/// Streaks stand along the ray of the middle pixel, which meets none of them.
+#[test]
+fn straight_up_and_down_there_is_haze_alone() {
+    let twin = Twin::new(pack::default_pack());
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    let off = SkyParams {
+        speed: 0.0,
+        ..params(Method::Packed)
+    };
+    for (elevation, side) in [(-FRAC_PI_2, 1), (FRAC_PI_2, 1), (-FRAC_PI_2, 3)] {
+        let params = with(off, |w| w.rain = 0.5);
+        let view = Camera::looking(0.0, elevation, 150_f32.to_radians(), [side, side]);
+        let middle = (side * side / 2) as usize;
+        let without = drawn(&mut sky, &off, &view, 0.0);
+        let frame = twin.frame_without_map(&params, &view, 0.0);
+        let expected = rained_on(&frame, &without, 0.0)[middle];
+        let actual = drawn(&mut sky, &params, &view, 0.0)[middle];
+        let bound = 0.003 * expected.abs() + 1e-4;
+        let near = (expected - actual).abs().cmple(bound).all();
+        assert!(near, "{elevation} {side}: {actual}, expected {expected}");
     }
 }
 

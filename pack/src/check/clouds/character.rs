@@ -13,8 +13,9 @@
 //! - **Apart.** Of independent channels the gradients have any angle `a` to each other, so `cos^2 a` is 1/2 on the mean, weighted by
 //!   their lengths. Of a channel and any monotone function of it, rising or falling, it is 1.
 
-use crate::Image;
 use crate::manifest::FractalNoise;
+use crate::view::View;
+use crate::{Image, Texture};
 
 use super::super::spectrum::Spectrum;
 
@@ -25,8 +26,17 @@ const FINEST_CELL_TEXELS: u32 = 6;
 /// noise, seen on a plane half way between two layers of its lattice.
 const BAND_OCTAVES: f64 = -1.25;
 
+/// The widest level that is looked at: what an octave of a wider one adds says nothing new, and takes memory.
+const WIDEST: u32 = 1024;
+
+/// The image that tells the character of the channels: the first level that is not too wide.
+pub(super) fn view(texture: &Texture) -> View<'_> {
+    let level = (texture.width / WIDEST).max(1).ilog2() as usize;
+    texture.view(level.min(texture.levels.len() - 1), 0)
+}
+
 /// The ranks of a channel's values, 0..1, as an image of one channel; equal values have the mean of their ranks.
-pub(super) fn ranks(image: &Image, channel: usize) -> Image {
+pub(super) fn ranks(image: View, channel: usize) -> Image {
     let values: Vec<f32> = image.channel(channel).collect();
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_unstable_by(|&a, &b| values[a].total_cmp(&values[b]));
@@ -126,29 +136,41 @@ pub(super) fn likeness(a: &Image, b: &Image) -> f64 {
 mod tests {
     use super::*;
     use crate::test_pack::waves as field;
+    use crate::{Format, Shape};
 
-    fn image(values: Vec<f32>) -> Image {
-        let mut image = Image::new(64, 64, 1);
-        image.texels = values;
-        image
+    /// As a texture of half floats.
+    fn texture(values: &[f32]) -> Texture {
+        let side = values.len().isqrt() as u32;
+        let texels: Vec<f32> = values.iter().flat_map(|&v| [v, 0.0, 0.0, 1.0]).collect();
+        Texture {
+            format: Format::Rgba16Float,
+            shape: Shape::D2,
+            width: side,
+            height: side,
+            layers: 1,
+            levels: vec![crate::texture::encode(Format::Rgba16Float, &texels)],
+        }
+    }
+
+    fn ranks_of(values: &[f32]) -> Image {
+        ranks(texture(values).view(0, 0), 0)
     }
 
     #[test]
     fn ranks_forget_every_rising_curve_and_share_ties() {
-        let plain = image(field(64, 3));
-        let mut bent = plain.clone();
-        bent.texels
-            .iter_mut()
-            .for_each(|v| *v = libm::powf(*v, 3.0));
-        assert_eq!(ranks(&plain, 0), ranks(&bent, 0));
-        let mut ties = Image::new(2, 2, 1);
-        ties.texels = vec![0.5, 0.1, 0.5, 0.9];
-        assert_eq!(ranks(&ties, 0).texels, [0.5, 0.125, 0.5, 0.875]);
+        // Values that halves keep apart.
+        let plain: Vec<f32> = (0..1024).map(|i| (i * 37 % 1024) as f32 / 1024.0).collect();
+        let bent: Vec<f32> = plain.iter().map(|v| 2.0 + v).collect();
+        assert_eq!(ranks_of(&plain), ranks_of(&bent));
+        assert_eq!(
+            ranks_of(&[0.5, 0.125, 0.5, 0.875]).texels,
+            [0.5, 0.125, 0.5, 0.875]
+        );
     }
 
     #[test]
     fn a_channel_is_like_itself_and_its_inverse_and_no_other() {
-        let [a, b] = [3, 4].map(|seed| ranks(&image(field(64, seed)), 0));
+        let [a, b] = [3, 4].map(|seed| ranks_of(&field(64, seed)));
         let mut inverse = a.clone();
         inverse.texels.iter_mut().for_each(|v| *v = 1.0 - *v);
         assert!((likeness(&a, &a) - 1.0).abs() < 1e-6);
@@ -159,8 +181,8 @@ mod tests {
     #[test]
     fn stripes_are_two_waves_in_one_place() {
         let turn = |x: usize| std::f32::consts::TAU * 8.0 * (x % 64) as f32 / 64.0;
-        let stripes = image((0..4096).map(|i| libm::sinf(turn(i))).collect());
-        let spectrum = Spectrum::new(&stripes, 0);
+        let stripes = (0..4096).map(|i| libm::sinf(turn(i)));
+        let spectrum = Spectrum::new(64, stripes);
         assert!((waves(&spectrum) - 2.0).abs() < 1e-3);
         assert!((band(&spectrum) - 3.0).abs() < 1e-3);
     }

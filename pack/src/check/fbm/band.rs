@@ -23,7 +23,7 @@ pub(super) struct Interpolation {
 type Wave = [f64; 3];
 
 impl Interpolation {
-    /// `size` texels a side, a power of two; `cells` lattice cells, a smaller one.
+    /// `size` texels a side, a power of two; `cells` lattice cells, a smaller one that is not 0.
     pub(super) fn new(size: u32, cells: u32) -> Interpolation {
         let (size, cells) = (size as usize, cells as usize);
         let kernel = (0..=size / 2).map(|k| {

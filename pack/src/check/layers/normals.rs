@@ -4,7 +4,7 @@
 //! range, and a rule blames only what no sound surface could have been rounded to.
 
 use super::{texels, under};
-use crate::Image;
+use crate::view::View;
 
 /// Half a step of a byte in a component, whose range is -1..1; a ten-thousandth more, since the numbers that were
 /// rounded had seven digits.
@@ -39,19 +39,19 @@ fn ranges(texel: &[f32]) -> [Range; 3] {
 }
 
 /// The longest of the shortest horizontal parts that the texels may stand for; longer than 1 none may be.
-pub(super) fn longest(image: &Image) -> f64 {
-    let lengths = image.texels.chunks_exact(image.channels).map(|texel| {
-        let [x, y, _] = ranges(texel);
+pub(super) fn longest(image: View) -> f64 {
+    let lengths = image.texels().map(|texel| {
+        let [x, y, _] = ranges(&texel);
         libm::sqrt(squares(x)[0] + squares(y)[0])
     });
     lengths.fold(0.0, f64::max)
 }
 
 /// How far, in half steps, a component of a level is from every unit vector along the sum of the normals above it.
-pub(super) fn off_the_mean(above: &Image, level: &Image) -> f64 {
+pub(super) fn off_the_mean(above: View, level: View) -> f64 {
     let mut worst = 0.0_f64;
     for (x, y) in texels(level) {
-        let normals = under(above, x, y).map(ranges);
+        let normals = under(above, x, y).map(|texel| ranges(&texel));
         let sum = normals.iter().fold([[0.0; 2]; 3], |sum, normal| {
             [0, 1, 2].map(|i| [sum[i][0] + normal[i][0], sum[i][1] + normal[i][1]])
         });
@@ -83,12 +83,12 @@ fn unit_component(x: Range, y: Range, z: Range) -> Range {
 /// Each slope `s = -x / z` is a height times a periodic central difference `d` of the density. Of both a range is known;
 /// so each texel and axis sets bounds to the height. The figure is the greatest lower bound over the least
 /// upper bound: at most 1, if there is a height between them.
-pub(super) fn disagreement(image: &Image, density: usize) -> f64 {
+pub(super) fn disagreement(image: View, density: usize) -> f64 {
     let (width, height) = (image.width, image.height);
     let at = |x: u32, y: u32| f64::from(image.texel(x % width, y % height)[density]);
     let mut bounds = [0.0, f64::INFINITY];
     for (x, y) in texels(image) {
-        let [normal_x, normal_y, up] = ranges(image.texel(x, y));
+        let [normal_x, normal_y, up] = ranges(&image.texel(x, y));
         let along_u = 0.5 * (at(x + 1, y) - at(x + width - 1, y));
         let along_v = 0.5 * (at(x, y + 1) - at(x, y + height - 1));
         for (normal, difference) in [(normal_x, along_u), (normal_y, along_v)] {
@@ -130,8 +130,8 @@ fn narrow(bounds: &mut Range, [low, high]: Range, difference: f64) {
 }
 
 /// Root mean square slope of the surface with these normals.
-pub(super) fn relief(image: &Image) -> f64 {
-    let squares = image.texels.chunks_exact(image.channels).map(|texel| {
+pub(super) fn relief(image: View) -> f64 {
+    let squares = image.texels().map(|texel| {
         let [x, y] = [texel[0], texel[1]].map(|stored| 2.0 * f64::from(stored) - 1.0);
         let horizontal = x * x + y * y;
         horizontal / (1.0 - horizontal).max(HALF_STEP)

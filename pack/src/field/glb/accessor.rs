@@ -24,10 +24,19 @@ impl<'a> Instances<'a> {
         document: &'a Document,
         bin: &'a [u8],
     ) -> Result<Instances<'a>, PackError> {
-        let found = document.nodes.iter().find(|n| n.name == node);
+        let scene = document.scenes.get(document.scene);
+        let in_scene = scene.iter().flat_map(|scene| &scene.nodes);
+        let mut named = in_scene
+            .filter_map(|index| document.nodes.get(*index))
+            .filter(|n| n.name == node);
+        let found = named.next();
+        if named.next().is_some() {
+            let expected = format!("one node `{node}` in the scene");
+            return Err(PackError::value(file, "nodes", "two", expected));
+        }
         let instancing = found.and_then(|n| n.extensions.as_ref()?.instancing.as_ref());
         let Some(instancing) = instancing else {
-            let expected = format!("a node `{node}` with {INSTANCING}");
+            let expected = format!("a node `{node}` with {INSTANCING} in the scene");
             return Err(PackError::value(file, "nodes", "without one", expected));
         };
         let mut instances = Instances {
@@ -137,13 +146,24 @@ impl<'a> Instances<'a> {
         let bytes = slice(self.bin, view.byte_offset, Some(view.byte_length));
         let bytes = bytes.and_then(|bytes| slice(bytes, accessor.byte_offset, None));
         let stride = view.byte_stride.unwrap_or(size);
+        let unit = if accessor.component_type == FLOAT {
+            4
+        } else {
+            2
+        };
         match bytes {
             // So that elements do not overlap, and a few bytes cannot claim to be many sprites.
-            Some(bytes) if (size..=256).contains(&stride) => Ok((bytes, stride as usize)),
+            Some(bytes) if (size..=256).contains(&stride) && stride % unit == 0 => {
+                if (view.byte_offset + accessor.byte_offset) % unit == 0 {
+                    return Ok((bytes, stride as usize));
+                }
+                let found = format!("at {}", view.byte_offset + accessor.byte_offset);
+                Err(self.error(name, found, format!("at a multiple of {unit}")))
+            }
             Some(_) => Err(self.error(
                 name,
                 format!("byteStride {stride}"),
-                format!("{size} to 256"),
+                format!("a multiple of {unit} from {size} to 256"),
             )),
             None => Err(self.error(
                 name,

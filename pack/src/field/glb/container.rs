@@ -45,6 +45,14 @@ fn chunk<'a>(file: &str, rest: &mut &'a [u8], kind: u32) -> Result<&'a [u8], Pac
         let (found, expected) = (format!("{found:#010x}"), format!("{kind:#010x}"));
         return Err(PackError::value(file, "chunk", found, expected));
     }
+    if !length.is_multiple_of(4) {
+        return Err(PackError::value(
+            file,
+            "chunk length",
+            length,
+            "a multiple of 4",
+        ));
+    }
     let Some((contents, after)) = rest.split_at_checked(length) else {
         return Err(too_short(file, rest.len(), length));
     };

@@ -1,8 +1,11 @@
 //! The JSON of the file: the parts of glTF that a field needs, and what is in the scene's `extras`.
 
 use std::collections::BTreeMap;
+use std::fmt;
+use std::marker::PhantomData;
 
-use serde::{Deserialize, Serialize};
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::field::COLOUR_LEVELS;
 
@@ -16,25 +19,61 @@ pub(super) const FLOAT: u32 = 5126;
 #[serde(rename_all = "camelCase")]
 pub(super) struct Document {
     pub asset: Asset,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "few")]
     pub extensions_used: Vec<String>,
+    #[serde(default, deserialize_with = "few", skip_serializing)]
+    pub extensions_required: Vec<String>,
     #[serde(default)]
     pub scene: usize,
+    #[serde(deserialize_with = "few")]
     pub scenes: Vec<Scene>,
+    #[serde(deserialize_with = "few")]
     pub nodes: Vec<Node>,
     #[serde(default, skip_deserializing)]
     pub materials: Vec<Material>,
     #[serde(default, skip_deserializing)]
     pub meshes: Vec<Mesh>,
+    #[serde(deserialize_with = "few")]
     pub accessors: Vec<Accessor>,
+    #[serde(deserialize_with = "few")]
     pub buffer_views: Vec<BufferView>,
-    #[serde(default, skip_deserializing)]
+    #[serde(default, deserialize_with = "few")]
     pub buffers: Vec<Buffer>,
 }
 
+/// Most entries of the lists of glTF itself: three bytes of JSON would make a hundred of memory otherwise.
+const MOST: usize = 1024;
+
+/// A list of at most [`MOST`] entries.
+fn few<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Vec<T>, D::Error> {
+    struct Few<T>(PhantomData<T>);
+    impl<'de, T: Deserialize<'de>> Visitor<'de> for Few<T> {
+        type Value = Vec<T>;
+
+        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+            write!(f, "a list of at most {MOST} entries")
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<T>, A::Error> {
+            let mut entries = Vec::new();
+            while let Some(entry) = list.next_element()? {
+                if entries.len() == MOST {
+                    return Err(A::Error::invalid_length(MOST + 1, &self));
+                }
+                entries.push(entry);
+            }
+            Ok(entries)
+        }
+    }
+    from.deserialize_seq(Few(PhantomData))
+}
+
 #[derive(Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub(super) struct Asset {
     pub version: String,
+    #[serde(default, skip_serializing)]
+    pub min_version: Option<String>,
     #[serde(default)]
     pub generator: String,
 }
@@ -43,7 +82,7 @@ pub(super) struct Asset {
 pub(super) struct Scene {
     #[serde(default)]
     pub name: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "few")]
     pub nodes: Vec<usize>,
     pub extras: Option<Extras>,
 }
@@ -132,10 +171,13 @@ pub(super) struct BufferView {
     pub target: Option<u32>,
 }
 
-#[derive(Default, Serialize)]
+#[derive(Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Buffer {
     pub byte_length: u64,
+    /// Only looked for, and refused.
+    #[serde(default, skip_serializing)]
+    pub uri: Option<serde::de::IgnoredAny>,
 }
 
 /// The scene's `extras`.

@@ -2,7 +2,7 @@
 
 use super::accessor::Instances;
 use super::document::{CloudExtras, Document, FieldExtras, HourExtras};
-use super::{BOXES, SPRITES, container, rotation};
+use super::{BOXES, INSTANCING, SPRITES, container, rotation};
 use crate::PackError;
 use crate::field::{
     Category, Cloud, CloudBox, CloudKind, ColourLevel, Field, Hour, Sprite, bounds,
@@ -24,6 +24,7 @@ pub(crate) fn decode(file: &str, bytes: &[u8]) -> Result<Field, PackError> {
             "a field as docs/pack-format.md describes it",
         )
     })?;
+    let bin = verify_gltf(file, &document, bin)?;
     let scene = document.scene;
     let scene = document.scenes.get_mut(scene);
     let Some(extras) = scene.and_then(|scene| scene.extras.take()) else {
@@ -56,6 +57,55 @@ pub(crate) fn decode(file: &str, bytes: &[u8]) -> Result<Field, PackError> {
         hours: extras.hours.iter().map(hour).collect(),
         clouds,
     })
+}
+
+/// What glTF asks of any file of this kind: a version and extensions that this reader knows, and one buffer, which is in the
+/// file. Gives its bytes.
+fn verify_gltf<'a>(file: &str, document: &Document, bin: &'a [u8]) -> Result<&'a [u8], PackError> {
+    let bad = |key: &str, found: String, expected: &str| {
+        Err(PackError::value(file, key, found, expected))
+    };
+    let asset = &document.asset;
+    let minor = asset.version.strip_prefix("2.");
+    if !minor.is_some_and(|minor| minor.parse::<u32>().is_ok()) {
+        return bad("asset.version", asset.version.clone(), "2.0");
+    }
+    if let Some(least) = asset.min_version.as_ref().filter(|least| *least != "2.0") {
+        return bad("asset.minVersion", least.clone(), "2.0");
+    }
+    if !document
+        .extensions_used
+        .iter()
+        .any(|name| name == INSTANCING)
+    {
+        let found = document.extensions_used.join(", ");
+        return bad("extensionsUsed", found, INSTANCING);
+    }
+    let unknown = |name: &&String| *name != INSTANCING;
+    if let Some(name) = document.extensions_required.iter().find(unknown) {
+        return bad("extensionsRequired", name.clone(), INSTANCING);
+    }
+    let [buffer] = &document.buffers[..] else {
+        let found = format!("{} of them", document.buffers.len());
+        return bad("buffers", found, "one");
+    };
+    if buffer.uri.is_some() {
+        return bad("buffers[0]", "with a uri".into(), "the bytes of this file");
+    }
+    // The chunk is filled up to a multiple of four.
+    let bytes = usize::try_from(buffer.byte_length).ok();
+    let bytes = bytes.and_then(|length| bin.split_at_checked(length));
+    match bytes {
+        Some((bytes, padding)) if padding.len() < 4 && padding.iter().all(|b| *b == 0) => Ok(bytes),
+        _ => {
+            let expected = format!("the {} bytes of the chunk", bin.len());
+            bad(
+                "buffers[0].byteLength",
+                buffer.byte_length.to_string(),
+                &expected,
+            )
+        }
+    }
 }
 
 fn at_most(file: &str, key: &str, found: usize, limit: usize) -> Result<(), PackError> {

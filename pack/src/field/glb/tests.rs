@@ -129,7 +129,7 @@ fn counts_that_lie_are_refused_before_they_are_believed() {
         }
     });
     assert!(
-        error.contains("byteStride 1, expected 12 to 256"),
+        error.contains("byteStride 1, expected a multiple of 4 from 12 to 256"),
         "{error}"
     );
     let error = blamed(|json| json["bufferViews"][4]["byteOffset"] = json!(u64::MAX));
@@ -188,6 +188,88 @@ fn indices_and_names_that_are_not_there_are_refused() {
     );
     let error = blamed(|json| clouds(json)[0]["colour"] = json!(1));
     assert!(error.contains("unknown field `colour`"), "{error}");
+}
+
+#[test]
+fn what_gltf_asks_of_any_file_is_asked() {
+    let error = blamed(|json| json["asset"]["version"] = json!("1.0"));
+    assert!(
+        error.contains("asset.version is 1.0, expected 2.0"),
+        "{error}"
+    );
+    let error = blamed(|json| json["asset"]["version"] = json!("2"));
+    assert!(error.contains("asset.version"), "{error}");
+    let error = blamed(|json| json["asset"]["minVersion"] = json!("2.1"));
+    assert!(error.contains("asset.minVersion is 2.1"), "{error}");
+    let error = blamed(|json| {
+        json["extensionsRequired"] = json!([INSTANCING, "KHR_draco_mesh_compression"])
+    });
+    assert!(error.contains("extensionsRequired is KHR_draco"), "{error}");
+    let error = blamed(|json| json["extensionsUsed"] = json!([]));
+    assert!(error.contains("extensionsUsed"), "{error}");
+    let error = blamed(|json| drop(json.as_object_mut().unwrap().remove("buffers")));
+    assert!(
+        error.contains("buffers is 0 of them, expected one"),
+        "{error}"
+    );
+    let error = blamed(|json| json["buffers"] = json!([]));
+    assert!(error.contains("buffers is 0 of them"), "{error}");
+    let error = blamed(|json| {
+        json["buffers"]
+            .as_array_mut()
+            .unwrap()
+            .push(json!({"byteLength": 4}))
+    });
+    assert!(error.contains("buffers is 2 of them"), "{error}");
+    let error = blamed(|json| json["buffers"][0]["uri"] = json!("more.bin"));
+    assert!(error.contains("buffers[0] is with a uri"), "{error}");
+    for by in [-4, 4, i64::MAX] {
+        let error = blamed(|json| {
+            let length = &mut json["buffers"][0]["byteLength"];
+            *length = json!(length.as_i64().unwrap().saturating_add(by));
+        });
+        assert!(error.contains("buffers[0].byteLength"), "{error}");
+    }
+    let error = blamed(|json| json["scenes"][0]["nodes"] = json!([0]));
+    assert!(error.contains("a node `boxes` with"), "{error}");
+    let error = blamed(|json| json["scenes"][0]["nodes"] = json!([0, 1, 0]));
+    assert!(error.contains("one node `sprites` in the scene"), "{error}");
+    let error = blamed(|json| accessor(json, "SCALE")["byteOffset"] = json!(13));
+    assert!(error.contains("sprites.SCALE is at"), "{error}");
+    let mut odd = bytes();
+    odd[12..16].copy_from_slice(&1021_u32.to_le_bytes());
+    let error = decode(FILE, &odd).unwrap_err().to_string();
+    assert!(error.contains("chunk length is 1021"), "{error}");
+    // A later minor version, and extensions that need not be known.
+    let bytes = bytes();
+    let (json, bin) = container::split(FILE, &bytes).unwrap();
+    let mut json: Value = serde_json::from_slice(json).unwrap();
+    json["asset"]["version"] = json!("2.1");
+    json["extensionsRequired"] = json!([INSTANCING]);
+    json["extensionsUsed"] = json!([INSTANCING, "KHR_lights_punctual"]);
+    let json = serde_json::to_vec(&json).unwrap();
+    assert!(read_whole(&container::join(json, bin.to_vec())).is_ok());
+}
+
+#[test]
+fn lists_of_nothing_are_cut_short() {
+    for key in [
+        "nodes",
+        "scenes",
+        "buffers",
+        "extensionsUsed",
+        "extensionsRequired",
+    ] {
+        let entry = if key.starts_with("ext") {
+            json!("")
+        } else {
+            json!({})
+        };
+        let error = blamed(|json| json[key] = json!(vec![entry; 1025]));
+        assert!(error.contains("JSON is"), "{key}: {error}");
+        let told = error.contains("a list of at most 1024 entries") || key == "buffers";
+        assert!(told, "{key}: {error}");
+    }
 }
 
 /// What is wrong after a change of one record of the sprites.

@@ -68,9 +68,11 @@ pub(crate) fn encode(file: &str, field: &Field, generator: &str) -> Result<Vec<u
     let document = Document {
         asset: Asset {
             version: "2.0".to_string(),
+            min_version: None,
             generator: generator.to_string(),
         },
         extensions_used: vec![INSTANCING.to_string()],
+        extensions_required: Vec::new(),
         scene: 0,
         scenes: vec![Scene {
             name: "field".to_string(),
@@ -86,6 +88,7 @@ pub(crate) fn encode(file: &str, field: &Field, generator: &str) -> Result<Vec<u
         buffer_views: parts.views,
         buffers: vec![Buffer {
             byte_length: parts.bin.len() as u64,
+            uri: None,
         }],
     };
     let json = serde_json::to_vec(&document)
