@@ -30,6 +30,7 @@ mod inputs;
 mod lattice;
 mod layers;
 mod load;
+mod notice;
 mod octaves;
 mod recipe;
 mod resolve;
@@ -48,6 +49,7 @@ pub use clouds::photo::BUILT_IN_NAME as BUILT_IN_PHOTO;
 pub use error::{BakeError, RecipeError};
 pub use inputs::Inputs;
 pub use load::read_photo;
+pub use notice::{Clipped, Notice};
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
     BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound, FieldSettings,

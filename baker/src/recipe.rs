@@ -4,6 +4,7 @@
 //! checks types and ranges together, so that both kinds of mistake are told in one form.
 
 mod field;
+mod kinds;
 
 use std::ops::Range;
 
@@ -32,7 +33,7 @@ pub struct Recipe {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Tables {
     pub name: Entry,
     pub seed: Entry,
@@ -50,7 +51,7 @@ pub(crate) struct Tables {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Clouds {
     pub size: Entry,
     pub format: Entry,
@@ -61,14 +62,14 @@ pub(crate) struct Clouds {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Photo {
     pub file: Entry,
     pub mean: Entry,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Fractal {
     pub cells: Entry,
     pub octaves: Entry,
@@ -77,13 +78,13 @@ pub(crate) struct Fractal {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Gradient {
     pub power: Entry,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Stars {
     pub size: Entry,
     pub count: Entry,
@@ -92,7 +93,7 @@ pub(crate) struct Stars {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Galaxy {
     pub size: Entry,
     pub tilt_deg: Entry,
@@ -101,7 +102,7 @@ pub(crate) struct Galaxy {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Sky {
     pub width: Entry,
     pub height: Entry,
@@ -109,14 +110,14 @@ pub(crate) struct Sky {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Sun {
     pub size: Entry,
     pub noon_elevation_deg: Entry,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Fbm {
     pub size: Entry,
     pub octaves: Entry,
@@ -124,13 +125,13 @@ pub(crate) struct Fbm {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Flares {
     pub size: Entry,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Layers {
     pub size: Entry,
     pub stratocumulus: Layer,
@@ -139,7 +140,7 @@ pub(crate) struct Layers {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Layer {
     pub cells: Entry,
     pub octaves: Entry,
@@ -148,7 +149,7 @@ pub(crate) struct Layer {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Sprites {
     pub size: Entry,
     pub file: Entry,
@@ -159,7 +160,7 @@ pub(crate) struct Sprites {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Skybox {
     pub file: Entry,
     pub faces: Option<Spanned<Faces>>,
@@ -169,7 +170,7 @@ pub(crate) struct Skybox {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Faces {
     pub east: Entry,
     pub west: Entry,
@@ -183,15 +184,31 @@ impl Recipe {
     /// Parses TOML. `file` names the text in errors.
     ///
     /// # Errors
-    /// [`RecipeError::Syntax`] where the text is not TOML or has a key that no recipe has.
+    /// [`RecipeError::Syntax`] where the text is not TOML or has a key that no recipe has; [`RecipeError::Value`] where
+    /// something else stands for a table or a list.
     pub fn parse(file: &str, text: &str) -> Result<Recipe, RecipeError> {
-        let tables = toml::from_str(text).map_err(|e| {
+        let tables = toml::from_str(text).map_err(|e: toml::de::Error| {
             let (line, column) = line_and_column(text, e.span().unwrap_or(0..0));
-            RecipeError::Syntax {
-                file: file.to_string(),
-                line,
-                column,
-                message: e.message().to_string(),
+            let file = file.to_string();
+            match kinds::wrong_kind(text, &e) {
+                Some(kinds::WrongKind {
+                    key,
+                    found,
+                    expected,
+                }) => RecipeError::Value {
+                    file,
+                    line,
+                    column,
+                    key,
+                    found,
+                    expected,
+                },
+                None => RecipeError::Syntax {
+                    file,
+                    line,
+                    column,
+                    message: e.message().to_string(),
+                },
             }
         })?;
         Ok(Recipe {

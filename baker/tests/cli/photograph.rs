@@ -68,6 +68,25 @@ fn missing() {
     refused(None, &["cannot be read", "No such file"]);
 }
 
+/// Nobody wrote a recipe, so none is to blame.
+#[test]
+fn missing_for_photo_alone() {
+    let desk = Desk::new();
+    let run = run(welkin()
+        .arg("photo")
+        .arg(desk.path("none.png"))
+        .arg("-o")
+        .arg(desk.path("tile.png")));
+    assert!(!run.stderr.contains("recipe"), "{run:?}");
+    run.failed(
+        1,
+        &[
+            "none.png: cannot be read: No such file",
+            "name a PNG or JPEG file",
+        ],
+    );
+}
+
 #[test]
 fn truncated() {
     let bytes = fs::read(god_rays()).unwrap();

@@ -1,7 +1,7 @@
 //! The skybox.
 
 use super::report::{Bound, Report};
-use super::rule::{SKYBOX_RANGE, SKYBOX_SEAM};
+use super::rule::{SKYBOX_CLIP, SKYBOX_RANGE, SKYBOX_SEAM};
 use super::subject;
 use crate::mapping::cube_texel;
 use crate::{Image, Role, Texture};
@@ -14,6 +14,8 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         .map(|level| out_of_range(&texture.stacked(level)))
         .sum();
     report.measure(SKYBOX_RANGE, NAME, wrong as f64, Bound::AtMost(0.0));
+    let clipped = clipped(&texture.stacked(0));
+    report.measure(SKYBOX_CLIP, NAME, clipped as f64, Bound::AtMost(0.0));
     let faces: Vec<Image> = (0..texture.layers).map(|f| texture.image(0, f)).collect();
     for channel in 0..=COVER {
         let name = subject(Role::Skybox, channel);
@@ -34,6 +36,14 @@ fn out_of_range(image: &Image) -> usize {
     };
     let texels = image.texels.chunks_exact(image.channels);
     texels.filter(|texel| !sound(texel)).count()
+}
+
+/// Texels that are as bright as a half float can be: brighter ones were cut to that, and none is so bright by itself.
+fn clipped(image: &Image) -> usize {
+    let largest = half::f16::MAX.to_f32();
+    let is_largest = |texel: &&[f32]| texel[..COVER].iter().any(|v| *v >= largest);
+    let texels = image.texels.chunks_exact(image.channels);
+    texels.filter(is_largest).count()
 }
 
 /// The worst ratio, over the edges of the cube, of the mean difference across the edge to the largest mean
