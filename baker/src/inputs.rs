@@ -152,8 +152,11 @@ fn place(base: Option<&Path>, file: &str, key: &str) -> Result<PathBuf, BakeErro
 
 /// The bytes of a file, or nothing if there are more than `most`.
 pub(crate) fn read_limited(path: &Path, most: u64) -> io::Result<Option<Vec<u8>>> {
+    let file = File::open(path)?;
     let mut bytes = Vec::new();
-    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    // A file that says its length takes no more memory than that.
+    bytes.try_reserve_exact(file.metadata()?.len().min(most) as usize + 1)?;
+    file.take(most + 1).read_to_end(&mut bytes)?;
     Ok((bytes.len() as u64 <= most).then_some(bytes))
 }
 

@@ -17,7 +17,7 @@ pub struct Clipped {
     pub texels: usize,
     /// Share of the light of the whole picture, as luminance over the solid angle, that was cut, 0..1.
     pub share: f32,
-    /// The largest radiance before the cut, after the gain; 65504 at least, but for what the picture left out.
+    /// The largest radiance that was cut, as it was after the gain; 0 if none was.
     pub brightest: f32,
     /// The gain that was used.
     pub gain: f32,

@@ -17,7 +17,13 @@ pub(super) struct WrongKind {
 
 /// The value that an error of the parser is about, if it is of a wrong kind.
 pub(super) fn wrong_kind(text: &str, error: &Error) -> Option<WrongKind> {
-    let (_, expected) = error.message().split_once(", expected ")?;
+    let message = error.message();
+    // Dates come as tables of a single key, whose name says so.
+    let expected = match message.split_once(", expected ") {
+        _ if message.contains("$__toml_private_datetime") => "a table",
+        Some((_, expected)) => expected,
+        None => return None,
+    };
     let at = error.span()?;
     let recipe = DeTable::parse(text).ok()?;
     let (key, value) = in_table("", recipe.get_ref(), &at)?;

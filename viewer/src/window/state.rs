@@ -12,7 +12,6 @@ use welkin_viewer::pass_times::Part;
 use welkin_viewer::spread::Spread;
 
 use crate::cli::WindowArgs;
-use crate::told::told;
 
 /// Seconds from one weather to the next.
 const BLEND_S: f32 = 4.0;
@@ -230,6 +229,8 @@ pub fn read_settings(file: &Path) -> Result<Settings> {
 
 #[cfg(test)]
 mod tests {
+    use crate::told::told;
+
     use super::*;
 
     fn state() -> State {
