@@ -14,6 +14,7 @@ use toml::{Spanned, Value};
 use crate::error::RecipeError;
 
 pub(crate) use field::{BoxTable, CloudLayer, FieldTable, HourTable, Model};
+use kinds::WrongKind;
 
 /// The recipe that is used when none is given; it spells out every default.
 pub const DEFAULT_RECIPE: &str = include_str!("../../assets-src/recipes/default.toml");
@@ -187,30 +188,33 @@ impl Recipe {
     /// [`RecipeError::Syntax`] where the text is not TOML or has a key that no recipe has; [`RecipeError::Value`] where
     /// something else stands for a table or a list.
     pub fn parse(file: &str, text: &str) -> Result<Recipe, RecipeError> {
+        let of_kind = |wrong: WrongKind| {
+            let (line, column) = line_and_column(text, wrong.at);
+            RecipeError::Value {
+                file: file.to_string(),
+                line,
+                column,
+                key: wrong.key,
+                found: wrong.found,
+                expected: wrong.expected,
+            }
+        };
         let tables = toml::from_str(text).map_err(|e: toml::de::Error| {
+            let wrong = kinds::wrong_kind(text, &e).or_else(|| kinds::list_for_table(text));
+            if let Some(wrong) = wrong {
+                return of_kind(wrong);
+            }
             let (line, column) = line_and_column(text, e.span().unwrap_or(0..0));
-            let file = file.to_string();
-            match kinds::wrong_kind(text, &e) {
-                Some(kinds::WrongKind {
-                    key,
-                    found,
-                    expected,
-                }) => RecipeError::Value {
-                    file,
-                    line,
-                    column,
-                    key,
-                    found,
-                    expected,
-                },
-                None => RecipeError::Syntax {
-                    file,
-                    line,
-                    column,
-                    message: e.message().to_string(),
-                },
+            RecipeError::Syntax {
+                file: file.to_string(),
+                line,
+                column,
+                message: e.message().to_string(),
             }
         })?;
+        if let Some(wrong) = kinds::list_for_table(text) {
+            return Err(of_kind(wrong));
+        }
         Ok(Recipe {
             file: file.to_string(),
             text: text.to_string(),

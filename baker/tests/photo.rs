@@ -159,7 +159,7 @@ fn a_photograph_is_turned_upright_as_its_camera_says() {
     // No symmetry of any kind.
     let upright = RgbImage::from_fn(120, 90, |x, y| {
         let v = ((x * x / 37 + 3 * y) % 160 + y / 2) as u8;
-        image::Rgb([v, v / 2 + 40, 200 - v])
+        image::Rgb([v, v / 2 + 40, 210 - v])
     });
     let expected = photo_channel(
         &encoded(&upright.clone().into(), ImageFormat::Png),

@@ -129,12 +129,32 @@ fn something_else_for_a_table_or_a_list_is_told_with_its_key() {
             format!("sky.toml:1:21: field.clouds[1] is {value}, expected a table")
         );
     }
-    assert!(
-        told("sun = [1]").contains("sun is a list, expected a table, which begins with `[sun]`")
-    );
     assert!(told("[field.hours]\ntime = 0").contains(
         "field.hours is a table, expected a list of tables, which each begin with `[[field.hours]]`"
     ));
+    // The parser takes the entries of a list for the keys of a table.
+    for list in [
+        "[]",
+        "[64]",
+        "[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14]",
+    ] {
+        for key in tables {
+            let error = told(&format!("{key} = {list}\n"));
+            assert!(
+                error.contains(&format!(
+                    "{key} is a list, expected a table, which begins with `[{key}]`"
+                )),
+                "{error}"
+            );
+        }
+        let boxes = told(&format!(
+            "[[field.models]]\nkind = \"cumulus\"\nboxes = [{list}]\n"
+        ));
+        assert!(
+            boxes.contains("field.models[0].boxes[0] is a list, expected a table"),
+            "{boxes}"
+        );
+    }
     let long = format!("sun = \"{}\"", "x".repeat(5000));
     assert!(told(&long).len() < 200);
 }
