@@ -29,9 +29,9 @@ const STANDARD: [[f32; 2]; 4] = [
 /// Refuses colours that would come out wrong without a word: other primaries than BT.709's. Eight zeros, as Photoshop
 /// writes them, say nothing, and the format's own say as much as no line at all.
 fn verify_primaries(lines: &[(String, String)], file: &str) -> Result<(), BakeError> {
-    let lines = lines.iter().filter(|(name, _)| name.trim() == "PRIMARIES");
+    let mut lines = lines.iter().filter(|(name, _)| name.trim() == "PRIMARIES");
     // Every program that changes a picture adds its line to those before.
-    let Some((_, text)) = lines.last() else {
+    let Some((_, text)) = lines.next_back() else {
         return Ok(());
     };
     let numbers = text.split_whitespace().map(|number| number.parse().ok());
