@@ -200,7 +200,7 @@ impl Recipe {
             }
         };
         let tables = toml::from_str(text).map_err(|e: toml::de::Error| {
-            let wrong = kinds::wrong_kind(text, &e).or_else(|| kinds::list_for_table(text));
+            let wrong = kinds::list_for_table(text).or_else(|| kinds::wrong_kind(text, &e));
             if let Some(wrong) = wrong {
                 return of_kind(wrong);
             }
