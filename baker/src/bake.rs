@@ -3,18 +3,18 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use welkin_pack::manifest::Input;
 use welkin_pack::{Field, Format, Image, Pack, PackInfo, Role, Source};
 
-use crate::clouds::{self, photo, source::Photo};
+use crate::clouds::{self, photo, source as photo_source};
 use crate::error::BakeError;
-use crate::inputs::{Inputs, Picture};
+use crate::inputs::{Inputs, Reader};
 use crate::load;
+use crate::notice::Notice;
 use crate::settings::{FieldSettings, PhotoSettings, Resolved, SkyboxSettings, SpritesSettings};
 use crate::{fbm, field, flares, galaxy, layers, octaves, sky, skybox, sprites, stars, sun};
 
 /// How far a bake is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// What begins now; `done` at the end.
     pub step: &'static str,
@@ -22,12 +22,14 @@ pub struct Progress {
     pub done: u32,
     /// Steps in all.
     pub total: u32,
+    /// What whoever wants the pack should know of the step, if there is anything.
+    pub notice: Option<Notice>,
 }
 
 /// What a manifest calls this program.
 pub(crate) const BAKER: &str = concat!("welkin ", env!("CARGO_PKG_VERSION"));
 
-/// Called before each step and at the end; [`ControlFlow::Break`] cancels the bake.
+/// Called before each step, with each notice and at the end; [`ControlFlow::Break`] cancels the bake.
 type OnProgress<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
 
 /// The steps that [`sources`] takes, in order; the last one only if there is a skybox.
@@ -59,27 +61,30 @@ pub fn bake_from(
     inputs: Inputs,
     progress: OnProgress,
 ) -> Result<Pack, BakeError> {
-    let files = Files::read(resolved, inputs)?;
+    let reader = Reader::new(inputs);
+    look_for_files(resolved, &reader)?;
     let total = step_count(resolved) + 1;
-    let step = |step, done| advance(progress, step, done, total);
-    let sources = make(resolved, &files, &step)?;
-    step("pack", total - 1)?;
+    let steps = Steps { progress, total };
+    let sources = make(resolved, &reader, &steps)?;
+    steps.begin("pack", total - 1)?;
+    let field = resolved.field.as_ref();
+    let field = field.map(|settings| field::field(settings, &reader, resolved.seed));
+    let field = field.transpose()?;
     let info = PackInfo {
         name: resolved.name.clone(),
         seed: resolved.seed,
         baker: BAKER.to_string(),
         recipe: resolved.recipe.clone(),
-        inputs: files.inputs(),
+        inputs: reader.into_hashes(),
         noon_elevation_rad: resolved.sun.noon_elevation_rad,
         noise: resolved.clouds.noise.entry(),
         detail: resolved.clouds.detail.entry(),
     };
     let mut pack = Pack::build(info, sources)?;
-    if let Some(settings) = &resolved.field {
-        let field = field::field(settings, &files.models, resolved.seed)?;
+    if let Some(field) = field {
         pack = pack.with_field(field)?;
     }
-    step("done", total)?;
+    steps.begin("done", total)?;
     Ok(pack)
 }
 
@@ -92,11 +97,12 @@ pub fn sources(
     base: Option<&Path>,
     progress: OnProgress,
 ) -> Result<Vec<Source>, BakeError> {
-    let files = Files::read(resolved, Inputs::Folder(base))?;
+    let reader = Reader::new(Inputs::Folder(base));
+    look_for_files(resolved, &reader)?;
     let total = step_count(resolved);
-    let step = |step, done| advance(progress, step, done, total);
-    let sources = make(resolved, &files, &step)?;
-    step("done", total)?;
+    let steps = Steps { progress, total };
+    let sources = make(resolved, &reader, &steps)?;
+    steps.begin("done", total)?;
     Ok(sources)
 }
 
@@ -126,11 +132,8 @@ pub fn skybox_faces(
     settings: &SkyboxSettings,
     base: Option<&Path>,
 ) -> Result<Vec<Image>, BakeError> {
-    skybox::images(
-        settings,
-        &skybox::read(settings, Inputs::Folder(base))?,
-        &|| Ok(()),
-    )
+    let reader = Reader::new(Inputs::Folder(base));
+    skybox::images(settings, &reader, &|| Ok(())).map(|(faces, _)| faces)
 }
 
 /// The field of clouds. `base` is the folder that relative paths of models start from.
@@ -143,11 +146,7 @@ pub fn cloud_field(
     base: Option<&Path>,
     seed: u64,
 ) -> Result<Field, BakeError> {
-    field::field(
-        settings,
-        &field::read(settings, Inputs::Folder(base))?,
-        seed,
-    )
+    field::field(settings, &Reader::new(Inputs::Folder(base)), seed)
 }
 
 /// The sheet of cloud sprites: grey and opacity, 0..1, as level 0 of the role `sprites` has them.
@@ -161,62 +160,28 @@ pub fn sprite_sheet(
     seed: u64,
     base: Option<&Path>,
 ) -> Result<Image, BakeError> {
-    sprites::image(
-        settings,
-        &sprites::read(settings, Inputs::Folder(base))?,
-        seed,
-    )
+    sprites::image(settings, &Reader::new(Inputs::Folder(base)), seed)
 }
 
-/// The files that a recipe names.
-struct Files {
-    photo: Photo,
-    sprites: Vec<Picture>,
-    skybox: Vec<Picture>,
-    models: Vec<Picture>,
-}
-
-impl Files {
-    fn read(resolved: &Resolved, inputs: Inputs) -> Result<Files, BakeError> {
-        let skybox = resolved.skybox.as_ref();
-        let skybox = skybox.map(|settings| skybox::read(settings, inputs));
-        let models = resolved.field.as_ref();
-        let models = models.map(|settings| field::read(settings, inputs));
-        Ok(Files {
-            photo: Photo::read(&resolved.clouds.photo, inputs)?,
-            sprites: sprites::read(&resolved.sprites, inputs)?,
-            skybox: skybox.transpose()?.unwrap_or_default(),
-            models: models.transpose()?.unwrap_or_default(),
-        })
-    }
-
-    fn inputs(&self) -> Vec<Input> {
-        let input = |picture: &Picture| Input {
-            key: picture.key.clone(),
-            blake3: blake3::hash(&picture.bytes).to_hex().to_string(),
-        };
-        let pictures = self
-            .photo
-            .named()
-            .into_iter()
-            .chain(&self.sprites)
-            .chain(&self.skybox);
-        pictures.chain(&self.models).map(input).collect()
-    }
+/// Sees that every file that a recipe names is there, before anything is made.
+fn look_for_files(resolved: &Resolved, reader: &Reader) -> Result<(), BakeError> {
+    let photo = photo_source::file(&resolved.clouds.photo);
+    let skybox = resolved.skybox.as_ref().map(skybox::files);
+    let models = resolved.field.as_ref().map(field::files);
+    let files = photo.into_iter().chain(sprites::files(&resolved.sprites));
+    let mut files = files.chain(skybox.into_iter().chain(models).flatten());
+    files.try_for_each(|named| reader.look_for(&named))
 }
 
 fn step_count(resolved: &Resolved) -> u32 {
     STEPS.len() as u32 - u32::from(resolved.skybox.is_none())
 }
 
-fn make(
-    resolved: &Resolved,
-    files: &Files,
-    step: &dyn Fn(&'static str, u32) -> Result<(), BakeError>,
-) -> Result<Vec<Source>, BakeError> {
+fn make(resolved: &Resolved, reader: &Reader, steps: &Steps) -> Result<Vec<Source>, BakeError> {
+    let step = |name, done| steps.begin(name, done);
     let (seed, clouds) = (resolved.seed, &resolved.clouds);
     step(STEPS[0], 0)?;
-    let red = files.photo.channel(&clouds.photo)?;
+    let red = photo_source::channel(&clouds.photo, reader)?;
     step(STEPS[1], 1)?;
     let green = clouds::noise::channel(&clouds.noise, clouds.size, seed, "clouds.noise");
     step(STEPS[2], 2)?;
@@ -241,7 +206,7 @@ fn make(
     step(STEPS[11], 11)?;
     let layers = layers::images(&resolved.layers, seed);
     step(STEPS[12], 12)?;
-    let sprites = sprites::image(&resolved.sprites, &files.sprites, seed)?;
+    let sprites = sprites::image(&resolved.sprites, reader, seed)?;
     let mut sources = vec![
         source(Role::Clouds, clouds.format, vec![clouds_image]),
         source(Role::Stars, Format::Rgba8Unorm, vec![stars]),
@@ -256,7 +221,10 @@ fn make(
     ];
     if let Some(settings) = &resolved.skybox {
         let proceed = || step(STEPS[13], 13);
-        let faces = skybox::images(settings, &files.skybox, &proceed)?;
+        let (faces, clipped) = skybox::images(settings, reader, &proceed)?;
+        if let Some(clipped) = clipped {
+            steps.notice(STEPS[13], 13, Notice::SkyboxClipped(clipped))?;
+        }
         sources.push(source(Role::Skybox, Format::Rgba16Float, faces));
     }
     Ok(sources)
@@ -270,14 +238,31 @@ fn source(role: Role, format: Format, images: Vec<Image>) -> Source {
     }
 }
 
-fn advance(
-    progress: OnProgress,
-    step: &'static str,
-    done: u32,
+/// Who is told of the steps, and how many there are.
+struct Steps<'a> {
+    progress: OnProgress<'a>,
     total: u32,
-) -> Result<(), BakeError> {
-    match progress(Progress { step, done, total }) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(BakeError::Cancelled),
+}
+
+impl Steps<'_> {
+    fn begin(&self, step: &'static str, done: u32) -> Result<(), BakeError> {
+        self.tell(step, done, None)
+    }
+
+    fn notice(&self, step: &'static str, done: u32, notice: Notice) -> Result<(), BakeError> {
+        self.tell(step, done, Some(notice))
+    }
+
+    fn tell(&self, step: &'static str, done: u32, notice: Option<Notice>) -> Result<(), BakeError> {
+        let told = Progress {
+            step,
+            done,
+            total: self.total,
+            notice,
+        };
+        match (self.progress)(told) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(BakeError::Cancelled),
+        }
     }
 }

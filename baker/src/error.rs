@@ -1,16 +1,18 @@
 //! What can go wrong in a bake: every error names the file, what was found and what was expected.
+//!
+//! The fields have texts as they are; a message quotes them through [`shown`].
 
 use std::io;
 
-use welkin_pack::PackError;
 use welkin_pack::check::Finding;
+use welkin_pack::{PackError, shown};
 
 /// Why a recipe was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecipeError {
     /// The text is not TOML, or has a key or a table that no recipe has.
-    #[error("{file}:{line}:{column}: {message}; correct the recipe there")]
+    #[error("{}:{line}:{column}: {}; correct the recipe there", shown(.file), shown(.message))]
     Syntax {
         /// The recipe.
         file: String,
@@ -22,7 +24,10 @@ pub enum RecipeError {
         message: String,
     },
     /// A value has the wrong type or is out of range.
-    #[error("{file}:{line}:{column}: {key} is {found}, expected {expected}")]
+    #[error(
+        "{}:{line}:{column}: {} is {}, expected {}",
+        shown(.file), shown(.key), shown(.found), shown(.expected)
+    )]
     Value {
         /// The recipe.
         file: String,
@@ -47,7 +52,7 @@ pub enum BakeError {
     #[error("cancelled; nothing was written")]
     Cancelled,
     /// A picture could not be read.
-    #[error("{file}: cannot be read: {source}; check `{key}` in the recipe")]
+    #[error("{}: cannot be read: {source}; check `{}` in the recipe", shown(.file), shown(.key))]
     Read {
         /// The picture.
         file: String,
@@ -56,8 +61,19 @@ pub enum BakeError {
         /// The operating system's reason.
         source: io::Error,
     },
+    /// A photograph that no recipe names could not be read.
+    #[error("{}: cannot be read: {source}; name a PNG or JPEG file", shown(.file))]
+    ReadPhoto {
+        /// The photograph.
+        file: String,
+        /// The operating system's reason.
+        source: io::Error,
+    },
     /// A PNG or JPEG could not be decoded.
-    #[error("{file}: cannot be decoded: {source}; expected a whole PNG or JPEG file")]
+    #[error(
+        "{}: cannot be decoded: {}; expected a whole PNG or JPEG file",
+        shown(.file), shown(&.source.to_string())
+    )]
     Decode {
         /// The picture.
         file: String,
@@ -65,7 +81,7 @@ pub enum BakeError {
         source: image::ImageError,
     },
     /// A picture is not fit for use.
-    #[error("{file}: {key} is {found}, expected {expected}")]
+    #[error("{}: {} is {}, expected {}", shown(.file), shown(.key), shown(.found), shown(.expected))]
     Photo {
         /// The picture.
         file: String,
@@ -78,7 +94,8 @@ pub enum BakeError {
     },
     /// The recipe names a picture by a relative path, but was not read from a folder.
     #[error(
-        "{file}: a relative path in a recipe that has no folder; give an absolute path for `{key}`"
+        "{}: a relative path in a recipe that has no folder; give an absolute path for `{}`",
+        shown(.file), shown(.key)
     )]
     NoBase {
         /// The picture.
@@ -87,7 +104,7 @@ pub enum BakeError {
         key: String,
     },
     /// A model of a cloud is not fit for use.
-    #[error("{file}: {key} is {found}, expected {expected}")]
+    #[error("{}: {} is {}, expected {}", shown(.file), shown(.key), shown(.found), shown(.expected))]
     Model {
         /// The glTF file.
         file: String,

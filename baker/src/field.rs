@@ -26,7 +26,7 @@ pub(crate) mod model;
 mod place;
 mod spread;
 
-pub(crate) use maker::{field, read};
+pub(crate) use maker::{field, files};
 
 /// The grid that everything stands on, in steps a metre.
 const STEPS_A_M: f32 = 8.0;

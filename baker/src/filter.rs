@@ -27,6 +27,13 @@ impl Edge {
     }
 }
 
+/// A standard deviation of less than this share of the largest value is rounding: sums of some hundred floats are exact to
+/// about 1e-6.
+const LEAST_SPREAD: f32 = 1e-4;
+
+/// From the low end to the maximum, in standard deviations: less is rounding on a plateau.
+const LEAST_RANGE: f32 = 0.01;
+
 /// An image of one channel from a function of the texel.
 pub(crate) fn plane(width: u32, height: u32, value: impl Fn(u32, u32) -> f32 + Sync) -> Image {
     let mut image = Image::new(width, height, 1);
@@ -169,10 +176,11 @@ fn mitchell(x: f32) -> f32 {
     }
 }
 
-/// Shifts and scales to mean 0 and standard deviation 1. A constant image becomes zero.
-pub(crate) fn standardise(image: &mut Image) {
+/// Shifts and scales to mean 0 and standard deviation 1. An image whose standard deviation is less than `least` is scaled
+/// as if it were that: what is left of a constant is rounding, and stays small.
+pub(crate) fn standardise(image: &mut Image, least: f32) {
     let (mean, spread) = image.mean_and_spread(0);
-    let scale = if spread > 0.0 { 1.0 / spread } else { 0.0 };
+    let scale = 1.0 / spread.max(least);
     for value in &mut image.texels {
         *value = (*value - mean) * scale;
     }
@@ -182,9 +190,17 @@ pub(crate) fn standardise(image: &mut Image) {
 /// deviations (one lone peak would otherwise use up the range), the range from the quantile
 /// `low` to the maximum becomes 0..1, and a power makes the mean.
 ///
+/// A field without contrast, but for rounding, becomes its mean everywhere.
+///
 /// The power is found by bisection on a histogram of 4096 bins, to 1/1000 of the mean.
 pub(crate) fn calibrate(image: &mut Image, low: f32, outlier: f32, mean: f32) {
-    standardise(image);
+    let largest = image.texels.iter().fold(0.0_f32, |m, v| m.max(v.abs()));
+    let least = (LEAST_SPREAD * largest).max(f32::MIN_POSITIVE);
+    if image.mean_and_spread(0).1 < least {
+        image.texels.fill(mean);
+        return;
+    }
+    standardise(image, least);
     for value in &mut image.texels {
         // Straight near 0, bounded by +-`outlier`.
         *value /= libm::sqrtf(1.0 + *value * *value / (outlier * outlier));
@@ -193,7 +209,11 @@ pub(crate) fn calibrate(image: &mut Image, low: f32, outlier: f32, mean: f32) {
         quantile(image, low),
         image.texels.iter().copied().fold(f32::MIN, f32::max),
     );
-    let scale = if to > from { 1.0 / (to - from) } else { 0.0 };
+    if to - from < LEAST_RANGE {
+        image.texels.fill(mean);
+        return;
+    }
+    let scale = 1.0 / (to - from);
     for value in &mut image.texels {
         *value = ((*value - from) * scale).clamp(0.0, 1.0);
     }
@@ -332,6 +352,30 @@ mod tests {
     fn a_constant_survives_calibration() {
         let mut flat = plane(8, 8, |_, _| 0.3);
         calibrate(&mut flat, 0.01, 3.0, 0.2);
-        assert!(flat.texels.iter().all(|v| v.is_finite()));
+        assert!(flat.texels.iter().all(|v| *v == 0.2));
+    }
+
+    /// A constant but for the last bit of some texels, and a plateau with a few holes but for the same.
+    #[test]
+    fn rounding_is_not_stretched_to_a_pattern() {
+        let rounding = |x: u32, y: u32| {
+            if (x * 7 + y * 3) % 5 < 2 {
+                1.0 + f32::EPSILON
+            } else {
+                1.0
+            }
+        };
+        let constant = plane(64, 64, |x, y| 0.7 * rounding(x, y));
+        let plateau = plane(64, 64, |x, y| {
+            let hole = if x == 9 && y % 3 == 0 { 0.5 } else { 1.0 };
+            hole * rounding(x, y)
+        });
+        for mut field in [constant, plateau] {
+            calibrate(&mut field, 0.05, 8.0, 0.16);
+            assert!(field.texels.iter().all(|v| *v == 0.16));
+        }
+        let mut constant = plane(64, 64, rounding);
+        standardise(&mut constant, 0.01);
+        assert!(constant.texels.iter().all(|v| v.abs() < 1e-4));
     }
 }

@@ -30,7 +30,6 @@ pub fn photo(bytes: &[u8]) {
 /// Decodes a sky.
 pub fn sky(bytes: &[u8]) {
     let picture = Picture {
-        key: "skybox.file".to_string(),
         file: "fuzz".to_string(),
         bytes: bytes.to_vec(),
     };

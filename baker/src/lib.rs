@@ -32,6 +32,7 @@ mod inputs;
 mod lattice;
 mod layers;
 mod load;
+mod notice;
 mod octaves;
 mod rebake;
 mod recipe;
@@ -52,6 +53,7 @@ pub use clouds::photo::BUILT_IN_NAME as BUILT_IN_PHOTO;
 pub use error::{BakeError, Fault, RecipeError};
 pub use inputs::Inputs;
 pub use load::{TextureFile, decode_texture, read_photo};
+pub use notice::{Clipped, Notice};
 pub use rebake::{REBAKE, RebakeError, rebake};
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{

@@ -1,23 +1,26 @@
 //! Pictures: read with a limit, decoded with limits that are checked before anything is allocated.
 //!
 //! What a file is, its first bytes say, not its name. Photographs of clouds are wanted as stored; skies are
-//! wanted as radiance.
+//! wanted as radiance. A camera held upright says so in its file (Exif 2.32, tag 0x0112, Orientation): such a picture is
+//! turned before anything looks at it.
 
 mod exr;
 mod hdr;
+mod primaries;
 mod sky;
 mod texture;
 
 use std::io::Cursor;
 use std::path::Path;
 
-use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+use image::metadata::Orientation;
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use welkin_pack::Image;
 
 use crate::error::BakeError;
-use crate::inputs::read_file;
+use crate::inputs::{read_limited, too_long};
 
-pub(crate) use sky::decode_sky;
+pub(crate) use sky::{MAX_RADIANCE, decode_sky};
 pub use texture::{TextureFile, decode_texture};
 
 /// The largest file that is read, in bytes: an 8192x8192 PNG of noise is smaller.
@@ -32,28 +35,17 @@ const MIN_SIDE: u32 = 64;
 /// The most that the decoder may allocate, in bytes: one 8192x8192 picture of four 16-bit channels.
 const MAX_DECODED_BYTES: u64 = 512 << 20;
 
-/// Reads the bytes of a photograph: a file of at most 256 MiB.
+/// Reads the bytes of a photograph that no recipe names: a file of at most 256 MiB.
 ///
 /// # Errors
-/// [`BakeError::Read`], or [`BakeError::Photo`] if it is larger.
+/// [`BakeError::ReadPhoto`], or [`BakeError::Photo`] if it is larger.
 pub fn read_photo(path: &Path) -> Result<Vec<u8>, BakeError> {
-    read_file(path, PHOTO_KEY)
-}
-
-/// The key of the photograph in the recipe.
-pub(crate) const PHOTO_KEY: &str = "clouds.photo.file";
-
-/// Looks at the length of a file.
-pub(crate) fn verify_bytes(file: &str, bytes: &[u8]) -> Result<(), BakeError> {
-    if bytes.len() as u64 > MAX_FILE_BYTES {
-        return Err(unfit(
-            file,
-            "length",
-            "over 256 MiB",
-            "at most 256 MiB; save it smaller",
-        ));
+    let file = path.display().to_string();
+    match read_limited(path, MAX_FILE_BYTES) {
+        Ok(Some(bytes)) => Ok(bytes),
+        Ok(None) => Err(too_long(&file, MAX_FILE_BYTES)),
+        Err(source) => Err(BakeError::ReadPhoto { file, source }),
     }
-    Ok(())
 }
 
 /// Decodes a PNG or a JPEG to red, green and blue as stored (gamma-encoded), 0..1.
@@ -83,7 +75,7 @@ pub(crate) fn decode(bytes: &[u8], file: &str) -> Result<Image, BakeError> {
     Ok(to_image(picture))
 }
 
-/// Decodes a PNG or a JPEG. `fits` is asked about the size before anything is allocated for it.
+/// Decodes a PNG or a JPEG, upright. `fits` is asked about the upright size before anything is allocated for it.
 fn decode_stored(
     bytes: &[u8],
     file: &str,
@@ -102,14 +94,31 @@ fn decode_stored(
         file: file.to_string(),
         source,
     };
-    let reader = || ImageReader::with_format(Cursor::new(bytes), format);
-    let (width, height) = reader().into_dimensions().map_err(failed)?;
-    fits(width, height)?;
-    let mut limited = reader();
     let mut limits = Limits::default();
     limits.max_alloc = Some(MAX_DECODED_BYTES);
-    limited.limits(limits);
-    limited.decode().map_err(failed)
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.limits(limits.clone());
+    let mut decoder = reader.into_decoder().map_err(failed)?;
+    let orientation = decoder.orientation().map_err(failed)?;
+    let (width, height) = decoder.dimensions();
+    if lies_on_its_side(orientation) {
+        fits(height, width)?;
+    } else {
+        fits(width, height)?;
+    }
+    limits.reserve(decoder.total_bytes()).map_err(failed)?;
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(failed)?;
+    picture.apply_orientation(orientation);
+    Ok(picture)
+}
+
+/// Whether the rows of a file are the columns of its picture.
+const fn lies_on_its_side(orientation: Orientation) -> bool {
+    use Orientation::{Rotate90, Rotate90FlipH, Rotate270, Rotate270FlipH};
+    matches!(
+        orientation,
+        Rotate90 | Rotate270 | Rotate90FlipH | Rotate270FlipH
+    )
 }
 
 /// Whether a JPEG goes on to its end marker: decoders fill what is missing with grey instead of saying so.

@@ -4,6 +4,7 @@
 //! checks types and ranges together, so that both kinds of mistake are told in one form.
 
 mod field;
+mod kinds;
 
 use std::ops::Range;
 
@@ -13,6 +14,7 @@ use toml::{Spanned, Value};
 use crate::error::RecipeError;
 
 pub(crate) use field::{BoxTable, CloudLayer, FieldTable, HourTable, Model};
+use kinds::WrongKind;
 
 /// The recipe that is used when none is given; it spells out every default.
 pub const DEFAULT_RECIPE: &str = include_str!("../../assets-src/recipes/default.toml");
@@ -32,7 +34,7 @@ pub struct Recipe {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Tables {
     pub name: Entry,
     pub seed: Entry,
@@ -50,7 +52,7 @@ pub(crate) struct Tables {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Clouds {
     pub size: Entry,
     pub format: Entry,
@@ -61,14 +63,14 @@ pub(crate) struct Clouds {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Photo {
     pub file: Entry,
     pub mean: Entry,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Fractal {
     pub cells: Entry,
     pub octaves: Entry,
@@ -77,13 +79,13 @@ pub(crate) struct Fractal {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Gradient {
     pub power: Entry,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Stars {
     pub size: Entry,
     pub count: Entry,
@@ -92,7 +94,7 @@ pub(crate) struct Stars {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Galaxy {
     pub size: Entry,
     pub tilt_deg: Entry,
@@ -101,7 +103,7 @@ pub(crate) struct Galaxy {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Sky {
     pub width: Entry,
     pub height: Entry,
@@ -109,14 +111,14 @@ pub(crate) struct Sky {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Sun {
     pub size: Entry,
     pub noon_elevation_deg: Entry,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Fbm {
     pub size: Entry,
     pub octaves: Entry,
@@ -124,13 +126,13 @@ pub(crate) struct Fbm {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Flares {
     pub size: Entry,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Layers {
     pub size: Entry,
     pub stratocumulus: Layer,
@@ -139,7 +141,7 @@ pub(crate) struct Layers {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Layer {
     pub cells: Entry,
     pub octaves: Entry,
@@ -148,7 +150,7 @@ pub(crate) struct Layer {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Sprites {
     pub size: Entry,
     pub file: Entry,
@@ -159,7 +161,7 @@ pub(crate) struct Sprites {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Skybox {
     pub file: Entry,
     pub faces: Option<Spanned<Faces>>,
@@ -169,7 +171,7 @@ pub(crate) struct Skybox {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Faces {
     pub east: Entry,
     pub west: Entry,
@@ -185,10 +187,26 @@ impl Recipe {
     /// Line ends become line feeds and a byte order mark is left out, so that a recipe from Windows makes the same pack.
     ///
     /// # Errors
-    /// [`RecipeError::Syntax`] where the text is not TOML or has a key that no recipe has.
+    /// [`RecipeError::Syntax`] where the text is not TOML or has a key that no recipe has; [`RecipeError::Value`] where
+    /// something else stands for a table or a list.
     pub fn parse(file: &str, text: &str) -> Result<Recipe, RecipeError> {
         let text = normalised(text);
-        let tables = toml::from_str(&text).map_err(|e| {
+        let of_kind = |wrong: WrongKind| {
+            let (line, column) = line_and_column(&text, wrong.at);
+            RecipeError::Value {
+                file: file.to_string(),
+                line,
+                column,
+                key: wrong.key,
+                found: wrong.found,
+                expected: wrong.expected,
+            }
+        };
+        let tables = toml::from_str(&text).map_err(|e: toml::de::Error| {
+            let wrong = kinds::list_for_table(&text).or_else(|| kinds::wrong_kind(&text, &e));
+            if let Some(wrong) = wrong {
+                return of_kind(wrong);
+            }
             let (line, column) = line_and_column(&text, e.span().unwrap_or(0..0));
             RecipeError::Syntax {
                 file: file.to_string(),
@@ -197,6 +215,9 @@ impl Recipe {
                 message: e.message().to_string(),
             }
         })?;
+        if let Some(wrong) = kinds::list_for_table(&text) {
+            return Err(of_kind(wrong));
+        }
         Ok(Recipe {
             file: file.to_string(),
             text,

@@ -10,7 +10,10 @@
 //! picture, over the texel's area on the face: every texel of the picture counts, none counts much more than
 //! another. Radiance is filtered times its cover, so that what is not covered leaves no dark rim, and stored
 //! so: `radiance * (1 - cover) + stored` lays it over a sky. Beyond a pole a panorama goes on at the opposite
-//! azimuth, and faces go on where they meet, so that there is neither a pinch nor a seam.
+//! azimuth, and faces go on where they meet, so that there is neither a pinch nor a seam. What is brighter than a half
+//! float is cut last, after the gain, and told (`skybox/clip.rs`).
+
+mod clip;
 
 use std::f32::consts::{PI, TAU};
 
@@ -20,8 +23,9 @@ use welkin_pack::format::CUBE_FACES;
 use welkin_pack::mapping::{cube_texel, cube_to_direction, direction_to_cube};
 
 use crate::error::BakeError;
-use crate::inputs::{Inputs, Picture};
-use crate::load::{self, unfit_size};
+use crate::inputs::{Named, Picture, Reader};
+use crate::load::{self, MAX_FILE_BYTES, unfit_size};
+use crate::notice::Clipped;
 use crate::settings::{SkyboxPicture, SkyboxSettings};
 
 /// Sides that a picture of a face may have, in texels: no more than a pack's faces have.
@@ -34,31 +38,39 @@ const PANORAMA_ROWS: [u32; 2] = [32, 4096];
 const SMALLEST: u32 = 16;
 const LARGEST_BY_ITSELF: u32 = 512;
 
-/// Reads the files that the settings name, in the order of the faces.
-pub(crate) fn read(settings: &SkyboxSettings, inputs: Inputs) -> Result<Vec<Picture>, BakeError> {
+/// The files that the settings name, in the order of the faces.
+pub(crate) fn files(settings: &SkyboxSettings) -> Vec<Named> {
     match &settings.picture {
-        SkyboxPicture::Panorama { file, .. } => Ok(vec![inputs.read(file, "skybox.file")?]),
-        SkyboxPicture::Faces(files) => {
-            let named = CUBE_FACES.iter().zip(files);
-            let read = named.map(|(face, file)| inputs.read(file, &format!("skybox.faces.{face}")));
-            read.collect()
-        }
+        SkyboxPicture::Panorama { file, .. } => vec![panorama_file(file)],
+        SkyboxPicture::Faces(files) => face_files(files),
     }
 }
 
-/// The six faces in the order of the cube: radiance times cover (red, green, blue) and cover. `proceed` is
-/// asked before each, since a large picture takes seconds.
+fn panorama_file(file: &str) -> Named {
+    Named::new("skybox.file", file, MAX_FILE_BYTES)
+}
+
+fn face_files(files: &[String; 6]) -> Vec<Named> {
+    let named = CUBE_FACES.iter().zip(files);
+    named
+        .map(|(face, file)| Named::new(format!("skybox.faces.{face}"), file, MAX_FILE_BYTES))
+        .collect()
+}
+
+/// The six faces in the order of the cube: radiance times cover (red, green, blue) and cover; and what was cut of their
+/// light, if anything was. `proceed` is asked before each, since a large picture takes seconds.
 pub(crate) fn images(
     settings: &SkyboxSettings,
-    pictures: &[Picture],
+    reader: &Reader,
     proceed: &dyn Fn() -> Result<(), BakeError>,
-) -> Result<Vec<Image>, BakeError> {
-    let scene = match (&settings.picture, pictures) {
-        (SkyboxPicture::Panorama { azimuth_rad, .. }, [picture]) => {
-            panorama(picture, *azimuth_rad)?
+) -> Result<(Vec<Image>, Option<Clipped>), BakeError> {
+    let mut scene = match &settings.picture {
+        SkyboxPicture::Panorama { file, azimuth_rad } => {
+            panorama(&reader.read(&panorama_file(file))?, *azimuth_rad)?
         }
-        _ => faces(pictures)?,
+        SkyboxPicture::Faces(files) => faces(&face_files(files), reader)?,
     };
+    let infinite = scene.pictures().iter_mut().map(clip::tame).sum();
     let size = settings.size.unwrap_or_else(|| scene.face_size());
     // In the middle of a face, where its texels are largest.
     let ratio = scene.texels_a_radian() * 2.0 / size as f32;
@@ -67,7 +79,10 @@ pub(crate) fn images(
         proceed()?;
         Ok(resample(&scene, face, size, taps.max(1), settings.gain))
     };
-    (0..CUBE_FACES.len() as u32).map(face).collect()
+    let faces = (0..CUBE_FACES.len() as u32).map(face);
+    let mut faces = faces.collect::<Result<Vec<Image>, BakeError>>()?;
+    let clipped = clip::cut(&mut faces, settings.gain, infinite);
+    Ok((faces, clipped))
 }
 
 /// What is around the viewer.
@@ -95,18 +110,19 @@ fn panorama(picture: &Picture, azimuth_rad: f32) -> Result<Scene, BakeError> {
     })
 }
 
-fn faces(pictures: &[Picture]) -> Result<Scene, BakeError> {
+fn faces(files: &[Named], reader: &Reader) -> Result<Scene, BakeError> {
     let mut faces: Vec<Image> = Vec::new();
-    for (picture, face) in pictures.iter().zip(CUBE_FACES) {
+    for (named, face) in files.iter().zip(CUBE_FACES) {
+        let picture = reader.read(named)?;
         let [least, most] = FACE_SIDE;
         let first = faces.first().map(|face| face.width);
-        let mut decoded = load::decode_sky(picture, &|width, height| {
+        let mut decoded = load::decode_sky(&picture, &|width, height| {
             let fits = (least..=most).contains(&width) && first.is_none_or(|side| side == width);
             if width == height && fits {
                 return Ok(());
             }
             let expected = match first {
-                Some(side) => format!("{side}x{side}, as `{}`", pictures[0].key),
+                Some(side) => format!("{side}x{side}, as `{}`", files[0].key),
                 None => format!("a square of {least} to {most} texels a side"),
             };
             let expected = format!("{expected}; crop or resize it");
@@ -135,6 +151,13 @@ fn turn(image: &mut Image, face: &str) {
 }
 
 impl Scene {
+    fn pictures(&mut self) -> &mut [Image] {
+        match self {
+            Scene::Panorama { picture, .. } => std::slice::from_mut(picture),
+            Scene::Faces(faces) => faces,
+        }
+    }
+
     /// Texels of a face that show as much as the picture does.
     fn face_size(&self) -> u32 {
         let side = match self {

@@ -24,11 +24,11 @@ mod volume;
 use welkin_pack::{Image, SheetCell, SheetKind};
 
 use crate::error::BakeError;
-use crate::inputs::Picture;
+use crate::inputs::Reader;
 use crate::settings::{SpriteShape, SpriteSource, SpritesSettings};
 use crate::stream::Stream;
 use march::picture;
-pub(crate) use pictures::read;
+pub(crate) use pictures::files;
 pub(crate) use puff::FLOOR;
 use puff::Puff;
 use veil::{Fog, Wisp};
@@ -45,14 +45,14 @@ const RELIEF_PUFF: f32 = 0.13;
 /// The sheet: grey and opacity.
 pub(crate) fn image(
     settings: &SpritesSettings,
-    pictures: &[Picture],
+    reader: &Reader,
     seed: u64,
 ) -> Result<Image, BakeError> {
     let side = settings.size / SheetCell::A_SIDE;
     let cells = match &settings.source {
         SpriteSource::Noise(shape) => noise(shape, settings.contrast, side, seed),
         SpriteSource::Sheet(_) | SpriteSource::Cells(_) => {
-            let cells = pictures::cells(pictures, side)?.into_iter();
+            let cells = pictures::cells(&files(settings), reader, side)?.into_iter();
             cells
                 .map(|cell| shade::relative(&cell, settings.contrast))
                 .collect()

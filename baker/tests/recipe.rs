@@ -77,7 +77,6 @@ fn unknown_keys_and_broken_text_are_told_with_their_place() {
         ("[clouds.noise]\n\n  ünits = 3\n", 3, 3, ""),
         ("seed = 1\n[cloud]\n", 2, 2, "cloud"),
         ("name = \"a\"\nseed = = 2\n", 2, 8, ""),
-        ("clouds = 3\n", 1, 10, "expected"),
         ("seed = 1\nseed = 2\n", 2, 1, "duplicate"),
         (
             "[layers.stratus]\ncells = 3\n",
@@ -109,6 +108,102 @@ fn unknown_keys_and_broken_text_are_told_with_their_place() {
         error.starts_with("sky.toml:2:1: unknown field `cuont`"),
         "{error}"
     );
+}
+
+/// Every table and every list of a recipe. A table that is left out here is one that no test has given a wrong type.
+#[test]
+fn something_else_for_a_table_or_a_list_is_told_with_its_key() {
+    let tables = [
+        "clouds",
+        "clouds.photo",
+        "clouds.noise",
+        "clouds.detail",
+        "clouds.gradient",
+        "stars",
+        "galaxy",
+        "sky",
+        "sun",
+        "fbm",
+        "flares",
+        "layers",
+        "layers.stratocumulus",
+        "layers.cumulus",
+        "layers.cirrus",
+        "sprites",
+        "skybox",
+        "skybox.faces",
+        "field",
+    ];
+    let lists = [
+        "sprites.pictures",
+        "field.clouds",
+        "field.models",
+        "field.hours",
+    ];
+    let told = |text: &str| {
+        let error = resolve(text).unwrap_err();
+        assert!(
+            matches!(error, RecipeError::Value { .. }),
+            "{text}: {error:?}"
+        );
+        error.to_string()
+    };
+    for value in ["3", "-1.5", "\"text\"", "true", "1979-05-27"] {
+        for key in tables {
+            let column = key.len() + 4;
+            assert_eq!(
+                told(&format!("{key} = {value}\n")),
+                format!(
+                    "sky.toml:1:{column}: {key} is {value}, expected a table, which begins with `[{key}]`"
+                )
+            );
+        }
+        for key in lists {
+            let column = key.len() + 4;
+            assert_eq!(
+                told(&format!("{key} = {value}\n")),
+                format!("sky.toml:1:{column}: {key} is {value}, expected a list")
+            );
+        }
+        let boxes = format!("[[field.models]]\nboxes = {value}\n");
+        assert_eq!(
+            told(&boxes),
+            format!("sky.toml:2:9: field.models[0].boxes is {value}, expected a list")
+        );
+        let entry = format!("field.clouds = [{{}}, {value}]\n");
+        assert_eq!(
+            told(&entry),
+            format!("sky.toml:1:21: field.clouds[1] is {value}, expected a table")
+        );
+    }
+    assert!(told("[field.hours]\ntime = 0").contains(
+        "field.hours is a table, expected a list of tables, which each begin with `[[field.hours]]`"
+    ));
+    // The parser takes the entries of a list for the keys of a table.
+    for list in [
+        "[]",
+        "[64]",
+        "[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14]",
+    ] {
+        for key in tables {
+            let error = told(&format!("{key} = {list}\n"));
+            assert!(
+                error.contains(&format!(
+                    "{key} is a list, expected a table, which begins with `[{key}]`"
+                )),
+                "{error}"
+            );
+        }
+        let boxes = told(&format!(
+            "[[field.models]]\nkind = \"cumulus\"\nboxes = [{list}]\n"
+        ));
+        assert!(
+            boxes.contains("field.models[0].boxes[0] is a list, expected a table"),
+            "{boxes}"
+        );
+    }
+    let long = format!("sun = \"{}\"", "x".repeat(5000));
+    assert!(told(&long).len() < 200);
 }
 
 #[test]

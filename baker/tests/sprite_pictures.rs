@@ -249,7 +249,8 @@ fn mistakes_in_the_recipe_are_told_with_their_place() {
         format!("pictures = [{}, 7]", list(15)),
         &["sky.toml:2:88: sprites.pictures[15] is 7"],
     );
-    told("pictures = 'a'".into(), &["sky.toml:2:12", "sequence"]);
+    let no_list = "sky.toml:2:12: sprites.pictures is 'a', expected a list";
+    told("pictures = 'a'".into(), &[no_list]);
     told(
         format!("file = 'a'\npictures = [{all}]"),
         &[

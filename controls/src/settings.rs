@@ -1,5 +1,6 @@
 //! The settings: what the sky is like, where one looks from, when.
 
+use welkin_pack::shown;
 use welkin_runtime::{Camera, SkyParams};
 
 use crate::flashes;
@@ -84,7 +85,7 @@ impl Viewpoint {
 #[non_exhaustive]
 pub enum SettingError {
     /// There is no setting of that name.
-    #[error("there is no setting \"{key}\"; did you mean \"{nearest}\"?")]
+    #[error("there is no setting \"{}\"; did you mean \"{nearest}\"?", shown(.key))]
     Unknown {
         /// As it was called.
         key: String,
@@ -92,7 +93,7 @@ pub enum SettingError {
         nearest: &'static str,
     },
     /// It has no such value.
-    #[error("{key} is \"{found}\", {expected}")]
+    #[error("{key} is \"{}\", {}", shown(.found), shown(.expected))]
     Value {
         /// Name of the setting.
         key: &'static str,

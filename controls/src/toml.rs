@@ -1,6 +1,7 @@
 //! Settings as a TOML document: a key a setting, all of them, so that a file means the same when what is usual changes.
 
 use toml::{Table, Value};
+use welkin_pack::shown;
 
 use crate::key::{Input, Key};
 use crate::keys::KEYS;
@@ -10,11 +11,11 @@ use crate::settings::{SettingError, Settings};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TomlError {
-    /// It is not TOML; the reason has line and column.
-    #[error("no TOML: {0}")]
+    /// It is not TOML; the reason has line and column, and quotes what is there through [`shown`].
+    #[error("no TOML: {}", shown(.0))]
     Syntax(String),
     /// A key has a value of a kind that no setting has.
-    #[error("{key} is {found}, expected a number, true or false, or text")]
+    #[error("{} is {found}, expected a number, true or false, or text", shown(.key))]
     Kind {
         /// Name of the key.
         key: String,
@@ -48,7 +49,7 @@ impl Settings {
     pub fn from_toml(text: &str) -> Result<Settings, TomlError> {
         let table: Table = text
             .parse()
-            .map_err(|e: toml::de::Error| TomlError::Syntax(e.to_string()))?;
+            .map_err(|e| TomlError::Syntax(reason(text, &e)))?;
         let pairs = table
             .iter()
             .map(|(name, value)| Ok((name.as_str(), plain(name, value)?)))
@@ -56,6 +57,18 @@ impl Settings {
         let pairs = pairs.iter().map(|(name, text)| (*name, text.as_str()));
         Ok(Settings::from_pairs(pairs)?)
     }
+}
+
+/// Where and why a text is no TOML, on one line.
+fn reason(text: &str, error: &toml::de::Error) -> String {
+    let at = error.span().map_or(0, |span| span.start);
+    let before = text.get(..at).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+    let (line, column) = (
+        before.matches('\n').count() + 1,
+        before[line_start..].chars().count() + 1,
+    );
+    format!("line {line}, column {column}: {}", error.message())
 }
 
 /// A value as TOML has it.
@@ -99,6 +112,11 @@ mod tests {
         let told = |text: &str| Settings::from_toml(text).unwrap_err().to_string();
         assert!(told("cover = ").starts_with("no TOML: "));
         assert!(told("\ncover = \n").contains("line 2, column 9"));
+        assert!(!told("\ncover = \n").contains('\n'));
+        assert_eq!(
+            told("\"a\\u001bb\" = [1]"),
+            r"a\u{1b}b is array, expected a number, true or false, or text"
+        );
         assert_eq!(
             told("cover = [1]"),
             "cover is array, expected a number, true or false, or text"

@@ -1,13 +1,17 @@
 //! What can be wrong with a pack: every error names the file, the key, what was found and what was expected.
+//!
+//! The fields have texts as they are; a message quotes them through [`shown`].
 
 use std::io;
+
+use crate::shown;
 
 /// Why a pack could not be read, built or saved.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PackError {
     /// A file or folder could not be read.
-    #[error("{file}: cannot be read: {source}")]
+    #[error("{}: cannot be read: {source}", shown(.file))]
     Read {
         /// File or folder.
         file: String,
@@ -15,7 +19,7 @@ pub enum PackError {
         source: io::Error,
     },
     /// A file or folder could not be written. Nothing of the pack was left behind.
-    #[error("{file}: cannot be written: {source}; nothing was changed")]
+    #[error("{}: cannot be written: {source}; nothing was changed", shown(.file))]
     Write {
         /// File or folder.
         file: String,
@@ -23,21 +27,22 @@ pub enum PackError {
         source: io::Error,
     },
     /// The place for the pack is taken.
-    #[error("{file}: already exists; choose another folder, or replace it with --force")]
+    #[error("{}: already exists; choose another folder, or replace it with --force", shown(.file))]
     Exists {
         /// The folder.
         file: String,
     },
     /// The folder is not a pack, so it is not replaced.
     #[error(
-        "{file}: is not a pack (it has no pack.json) and is not replaced; move it away or choose another folder"
+        "{}: is not a pack (it has no pack.json) and is not replaced; move it away or choose another folder",
+        shown(.file)
     )]
     NotAPack {
         /// The folder.
         file: String,
     },
     /// A file that the pack must have is missing.
-    #[error("{file}: missing, expected {expected}; bake the pack again")]
+    #[error("{}: missing, expected {}; bake the pack again", shown(.file), shown(.expected))]
     Missing {
         /// File.
         file: String,
@@ -45,7 +50,7 @@ pub enum PackError {
         expected: String,
     },
     /// A file is larger than a reader accepts.
-    #[error("{file}: {key} is {found}, expected at most {limit}")]
+    #[error("{}: {} is {found}, expected at most {limit}", shown(.file), shown(.key))]
     TooLarge {
         /// File.
         file: String,
@@ -58,7 +63,8 @@ pub enum PackError {
     },
     /// The pack has a version that this build does not know.
     #[error(
-        "{file}: version is {found}, expected {expected}; use a welkin that knows this version, or bake again"
+        "{}: version is {found}, expected {expected}; use a welkin that knows this version, or bake again",
+        shown(.file)
     )]
     Version {
         /// File.
@@ -70,7 +76,8 @@ pub enum PackError {
     },
     /// The manifest is not the JSON that it should be.
     #[error(
-        "{file}:{line}:{column}: {message}; expected a manifest as docs/pack.schema.json describes it"
+        "{}:{line}:{column}: {}; expected a manifest as docs/pack.schema.json describes it",
+        shown(.file), shown(.message)
     )]
     Json {
         /// File.
@@ -86,7 +93,7 @@ pub enum PackError {
     #[error("cancelled; nothing was changed")]
     Cancelled,
     /// A value is not what it must be.
-    #[error("{file}: {key} is {found}, expected {expected}")]
+    #[error("{}: {} is {}, expected {}", shown(.file), shown(.key), shown(.found), shown(.expected))]
     Value {
         /// File.
         file: String,

@@ -24,6 +24,7 @@ mod read;
 pub mod role;
 #[cfg(all(feature = "write", not(target_family = "wasm")))]
 mod save;
+mod shown;
 #[cfg(test)]
 #[cfg(feature = "write")]
 mod test_field;
@@ -47,6 +48,7 @@ pub use pack::Pack;
 #[cfg(feature = "write")]
 pub use pack::{PackInfo, Source};
 pub use role::Role;
+pub use shown::shown;
 pub use texel::{
     CloudTexel, FbmTexel, FlareTexel, GalaxyTexel, LayerTexel, OctaveTexel, SkyTexel, SkyboxTexel,
     SpriteTexel, StarTexel, SunTexel,

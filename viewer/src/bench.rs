@@ -11,7 +11,7 @@ pub mod scene;
 use std::io::{ErrorKind, Write};
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::{Result, anyhow};
 use welkin_pack::Pack;
 use welkin_runtime::Sky;
 use welkin_viewer::frame::Target;
@@ -52,7 +52,9 @@ pub fn run(args: &BenchArgs) -> Result<()> {
     {
         // Whoever read the pipe has seen enough.
         Err(e) if e.kind() == ErrorKind::BrokenPipe => Ok(()),
-        written => written.context("standard output cannot be written; make room where it goes"),
+        written => written.map_err(|e| {
+            anyhow!("standard output: cannot be written: {e}; make room where it goes")
+        }),
     }
 }
 

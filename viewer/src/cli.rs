@@ -90,6 +90,57 @@ mod tests {
         Cli::command().debug_assert();
     }
 
+    /// What is no number, or none that any option takes.
+    const GARBAGE: [&str; 9] = [
+        "x", "-x", "-inf", "inf", "nan", "-nan", "-", "1e999", "0x10",
+    ];
+
+    /// Every option that takes a value but names of files and words of a list.
+    fn numeric(command: &clap::Command) -> Vec<String> {
+        let takes_number = |arg: &&clap::Arg| {
+            let is_path = arg.get_value_parser().type_id()
+                == clap::builder::ValueParser::path_buf().type_id();
+            arg.get_action().takes_values() && !is_path && arg.get_possible_values().is_empty()
+        };
+        let options = command.get_opts().filter(takes_number);
+        options
+            .filter_map(|arg| arg.get_long().map(str::to_string))
+            .collect()
+    }
+
+    #[test]
+    fn every_number_that_is_none_is_refused_with_what_was_expected() {
+        let mut tried = 0;
+        let mut command = Cli::command();
+        // What they have of their own is known only then.
+        command.build();
+        let refused = |words: &[&str], option: &str| {
+            for text in GARBAGE {
+                let option = format!("--{option}");
+                let words = [words, &[&option, text]].concat();
+                let error = Cli::read(words).unwrap_err().to_string();
+                let told = error.lines().next().unwrap_or_default();
+                assert!(
+                    told.contains(&format!("'{text}' for '{option} ")) && told.contains("expected"),
+                    "{option} {text}: {error}"
+                );
+            }
+        };
+        for option in numeric(&command) {
+            refused(&["welkin-view"], &option);
+            tried += 1;
+        }
+        for (name, words) in [
+            ("render", &["welkin-view", "render", "p", "-o", "f.png"][..]),
+            ("bench", &["welkin-view", "bench", "p"][..]),
+        ] {
+            let options = numeric(command.find_subcommand(name).unwrap());
+            options.iter().for_each(|option| refused(words, option));
+            tried += options.len();
+        }
+        assert!(tried > 40, "{tried}");
+    }
+
     #[test]
     fn a_pack_alone_asks_for_the_window() {
         let cli = Cli::read(["welkin-view", "packs/default"]).unwrap();

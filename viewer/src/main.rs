@@ -7,12 +7,14 @@ mod bench;
 mod cli;
 mod interrupt;
 mod render;
+mod told;
 mod window;
 
 use std::io::Write;
 use std::process::ExitCode;
 
 use cli::{Cli, Command};
+use told::told;
 
 fn main() -> ExitCode {
     // Wrong usage and `--help` end here, as clap has them end.
@@ -24,8 +26,8 @@ fn main() -> ExitCode {
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) if interrupt::requested() => failed(&format!("{error:#}"), interrupt::EXIT_CODE),
-        Err(error) => failed(&format!("{error:#}"), 1),
+        Err(error) if interrupt::requested() => failed(&told(&error), interrupt::EXIT_CODE),
+        Err(error) => failed(&told(&error), 1),
     }
 }
 

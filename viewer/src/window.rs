@@ -16,7 +16,7 @@ mod state;
 mod watch;
 mod wishes;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Result, anyhow};
 use winit::event_loop::EventLoop;
 
 use crate::cli::WindowArgs;
@@ -51,7 +51,7 @@ pub fn run(args: &WindowArgs) -> Result<()> {
     let mut app = App::new(args, state, event_loop.create_proxy());
     event_loop
         .run_app(&mut app)
-        .context("the window ended; start it again")?;
+        .map_err(|e| anyhow!("the window ended: {e}; start it again"))?;
     app.failure.map_or(Ok(()), Err)
 }
 

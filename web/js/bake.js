@@ -42,7 +42,7 @@ function work(order, onprogress, signal) {
     worker.onmessage = ({ data }) => {
       if (data.files) finish(() => resolve(data.files));
       else if (data.error) finish(() => reject(new Error(data.error)));
-      else onprogress?.(data.done / data.total, data.step);
+      else onprogress?.(data.done / data.total, data.step, data.notice);
     };
     worker.onerror = (event) => {
       event.preventDefault();

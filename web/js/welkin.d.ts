@@ -203,8 +203,11 @@ export interface BakeOptions {
    * assets-src/photos/god-rays-1024.png.
    */
   files?: Files;
-  /** Told the share of the steps that are done, 0 to 1, and the step that begins. */
-  onprogress?(share: number, step: string): void;
+  /**
+   * Told the share of the steps that are done, 0 to 1, and the step that begins; and what whoever wants the pack should know of
+   * it, such as how much light of a skybox was cut, if there is anything.
+   */
+  onprogress?(share: number, step: string, notice?: string): void;
   /** Ends the bake; the promise is then rejected with the signal's reason. */
   signal?: AbortSignal;
 }

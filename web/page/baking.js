@@ -32,17 +32,20 @@ export function watchBaker(bake, take) {
     show(true);
     bar.removeAttribute('value');
     text.textContent = 'Baking…';
+    const notices = [];
     try {
       const files = await bake(recipe.value, {
         seed: seed.value.trim(), files: photos, signal: running.signal,
-        onprogress(share, what) {
+        onprogress(share, what, notice) {
+          if (notice) notices.push(notice);
           bar.value = share;
           text.textContent = `${Math.floor(100 * share)} %${what ? `, ${what}` : ''}`;
         },
       });
       text.textContent = 'Loading…';
       await take(files);
-      text.textContent = `Baked: ${bytesText([...files.values()].reduce((sum, file) => sum + file.length, 0))}`;
+      const bytes = bytesText([...files.values()].reduce((sum, file) => sum + file.length, 0));
+      text.textContent = [`Baked: ${bytes}`, ...notices].join('; ');
     } catch (error) {
       const stopped = error.name === 'AbortError';
       text.textContent = stopped ? 'Cancelled; the sky is as it was' : 'Not baked; the sky is as it was';

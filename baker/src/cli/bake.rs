@@ -7,7 +7,7 @@ use std::path::Path;
 
 use anyhow::{Result, anyhow, bail};
 use indicatif::{ProgressBar, ProgressStyle};
-use welkin_baker::{FieldBound, FieldSettings, Progress, Recipe, Resolved};
+use welkin_baker::{FieldBound, FieldSettings, Notice, Progress, Recipe, Resolved};
 use welkin_pack::pack::Overwrite;
 use welkin_pack::{Pack, Role};
 
@@ -38,7 +38,8 @@ pub fn run(args: &BakeArgs) -> Result<()> {
     let png = args.png.as_deref().map(begin).transpose()?;
     let exr = args.exr.as_deref().map(begin).transpose()?;
 
-    let pack = with_progress(|on_progress| welkin_baker::bake(&resolved, base, on_progress))?;
+    let bake = |on_progress: OnProgress| welkin_baker::bake(&resolved, base, on_progress);
+    let pack = with_progress(&|notice| output::message(&notice.to_string()), bake)?;
     // A pack that `check` would refuse never appears.
     welkin_baker::verify(&pack)?;
     png.as_ref()
@@ -109,10 +110,10 @@ fn read_recipe(path: &Path) -> Result<Recipe> {
     Ok(Recipe::parse(&name, &text)?)
 }
 
-/// Shows a bar on a terminal and nothing elsewhere; passes interruptions on.
-pub fn with_progress<T>(
-    work: impl FnOnce(&(dyn Fn(Progress) -> ControlFlow<()> + Sync)) -> T,
-) -> T {
+pub type OnProgress<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
+
+/// Shows a bar on a terminal and nothing elsewhere; passes notices and interruptions on.
+pub fn with_progress<T>(tell: &(dyn Fn(Notice) + Sync), work: impl FnOnce(OnProgress) -> T) -> T {
     let bar = ProgressBar::new(0);
     if let Ok(style) = ProgressStyle::with_template("{bar:24} {pos}/{len} {msg}") {
         bar.set_style(style);
@@ -121,6 +122,9 @@ pub fn with_progress<T>(
         bar.set_length(progress.total.into());
         bar.set_position(progress.done.into());
         bar.set_message(progress.step);
+        if let Some(notice) = progress.notice {
+            bar.suspend(|| tell(notice));
+        }
         if interrupt::requested() {
             ControlFlow::Break(())
         } else {
@@ -143,7 +147,9 @@ fn add_stored(folder: &Folder, pack: &Pack) -> Result<()> {
 }
 
 fn add_linear(folder: &Folder, resolved: &Resolved, base: Option<&Path>) -> Result<()> {
-    let sources = with_progress(|on_progress| welkin_baker::sources(resolved, base, on_progress))?;
+    // It makes again what the pack was made from, so there is nothing new to tell.
+    let make = |on_progress: OnProgress| welkin_baker::sources(resolved, base, on_progress);
+    let sources = with_progress(&|_| (), make)?;
     for source in &sources {
         for (layer, image) in (0..).zip(&source.images) {
             side::add(folder, source.role, layer, image, Kind::Exr)?;

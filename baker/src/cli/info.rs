@@ -1,4 +1,4 @@
-//! `welkin info`: what is in a pack.
+//! `welkin info`: what is in a pack. What the pack says of itself is quoted so that it stays on its line.
 //!
 //! `--json` prints one object: `folder` is the folder as it was named, `bytes` the size of all textures'
 //! files together, `manifest` the manifest as docs/pack.schema.json describes it, and `field` the clouds by kind.
@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use serde_json::json;
 use welkin_pack::manifest::{Channel, FractalNoise, TextureEntry};
-use welkin_pack::{Manifest, Pack};
+use welkin_pack::{Manifest, Pack, shown};
 
 use super::{PackArgs, output, picture};
 
@@ -44,10 +44,10 @@ fn bytes(manifest: &Manifest) -> u64 {
 
 fn table(manifest: &Manifest) -> Result<String> {
     let mut text = String::new();
-    writeln!(text, "name            {}", manifest.name)?;
+    writeln!(text, "name            {}", shown(&manifest.name))?;
     writeln!(text, "seed            {}", manifest.seed)?;
     writeln!(text, "format version  {}", manifest.version)?;
-    writeln!(text, "baked by        {}", manifest.baker)?;
+    writeln!(text, "baked by        {}", shown(&manifest.baker))?;
     writeln!(
         text,
         "sun at noon     {:.1} degrees",
@@ -60,7 +60,8 @@ fn table(manifest: &Manifest) -> Result<String> {
         bytes(manifest)
     )?;
     for input in &manifest.inputs {
-        writeln!(text, "input           {} {}", input.blake3, input.key)?;
+        let (hash, key) = (shown(&input.blake3), shown(&input.key));
+        writeln!(text, "input           {hash} {key}")?;
     }
     for entry in &manifest.textures {
         texture(&mut text, entry)?;
@@ -70,9 +71,9 @@ fn table(manifest: &Manifest) -> Result<String> {
 
 fn texture(text: &mut String, entry: &TextureEntry) -> std::fmt::Result {
     let (role, size) = (entry.role.name(), picture::size_of(entry));
-    let (bytes, file) = (entry.file_bytes, &entry.file);
+    let (bytes, file) = (entry.file_bytes, shown(&entry.file));
     writeln!(text, "\n{role}  {size}, {bytes} bytes in {file}")?;
-    writeln!(text, "  texels {}", entry.texels_blake3)?;
+    writeln!(text, "  texels {}", shown(&entry.texels_blake3))?;
     entry.channels.iter().try_for_each(|c| channel(text, c))
 }
 
@@ -89,7 +90,7 @@ fn channel(text: &mut String, channel: &Channel) -> std::fmt::Result {
     let unit = if unit == "1" {
         String::new()
     } else {
-        format!(" {unit}")
+        format!(" {}", shown(unit))
     };
     let octaves = fractal.map_or_else(String::new, |noise| {
         let FractalNoise {
@@ -100,6 +101,7 @@ fn channel(text: &mut String, channel: &Channel) -> std::fmt::Result {
         } = noise;
         format!(" ({octaves} octaves from {cells} cells, gain {gain}, to the mean {mean})")
     });
+    let (name, meaning) = (shown(name), shown(meaning));
     writeln!(
         text,
         "  {name:<10} {low}..{high}{unit}, mean {mean:.4}, spread {spread:.4}: {meaning}{octaves}"

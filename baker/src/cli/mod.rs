@@ -63,10 +63,10 @@ struct BakeArgs {
     #[arg(short, long, value_name = "PACK")]
     output: PathBuf,
     /// Seed of every random stream, instead of the recipe's
-    #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = seed, allow_hyphen_values = true)]
     seed: Option<u64>,
     /// Threads to use, 1 to 1024; the bytes are the same with any number [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true)]
     threads: Option<u16>,
     /// Replace a pack that is there already, and the folders of --png and --exr
     #[arg(long)]
@@ -147,9 +147,19 @@ struct ViewArgs {
     args: Vec<OsString>,
 }
 
+/// More than any machine has today.
+const MOST_THREADS: u16 = 1024;
+
 fn seed(text: &str) -> Result<u64, String> {
     text.parse()
         .map_err(|_| format!("expected a whole number from 0 to {}", u64::MAX))
+}
+
+fn threads(text: &str) -> Result<u16, String> {
+    match text.parse() {
+        Ok(count) if (1..=MOST_THREADS).contains(&count) => Ok(count),
+        _ => Err(format!("expected a whole number from 1 to {MOST_THREADS}")),
+    }
 }
 
 /// Does what the command line says and tells how it went.
@@ -188,6 +198,24 @@ fn make(command: Command) -> anyhow::Result<ExitCode> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_that_are_none_are_refused_with_what_was_expected() {
+        for option in ["--threads", "--seed"] {
+            for text in ["x", "-x", "-inf", "inf", "nan", "-1", "1.5", "-", "1e999"] {
+                let words = ["welkin", "bake", "-o", "p", option, text];
+                let error = Cli::try_parse_from(words).unwrap_err().to_string();
+                assert!(
+                    error.contains(&format!(
+                        "'{text}' for '{option} <N>': expected a whole number from"
+                    )),
+                    "{error}"
+                );
+            }
+        }
+        let none = ["welkin", "bake", "-o", "p", "--threads", "0"];
+        assert!(Cli::try_parse_from(none).is_err());
+    }
 
     #[test]
     fn the_command_line_is_consistent() {

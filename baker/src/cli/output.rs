@@ -4,6 +4,7 @@ use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 use anyhow::{Result, anyhow};
+use welkin_pack::shown;
 
 /// Writes a result. A reader that has gone away has seen enough: that is no error.
 pub fn result(text: &str) -> Result<()> {
@@ -19,9 +20,10 @@ pub fn result(text: &str) -> Result<()> {
     }
 }
 
-/// Writes a line to standard error; if even that fails, there is nobody left to tell.
+/// Writes a line to standard error, where names of files are quoted as texts of files are; if even that fails, there is
+/// nobody left to tell.
 pub fn message(text: &str) {
-    writeln!(std::io::stderr(), "{text}").ok();
+    writeln!(std::io::stderr(), "{}", shown(text)).ok();
 }
 
 /// Writes `error: ...` and gives the exit code.

@@ -5,7 +5,8 @@
 //! (C. N. Long, J. M. Sabburg, J. Calbo, D. Pages, "Retrieving Cloud Characteristics from Ground-Based
 //! Daytime Color All-Sky Images", J. Atmos. Oceanic Technol. 23, 2006). A JPEG stores colour in coarse
 //! blocks, so here the ratio is blurred and gives the large shapes alone; the fine structure comes from
-//! luminance, divided by its own wide blur so that no uneven light remains.
+//! luminance, divided by its own wide blur so that no uneven light remains. A grey picture, or one of a single tint, has
+//! no ratio to go by: all of its channel comes from luminance.
 //!
 //! The tile is closed by blending a margin with the opposite side. Plain blending averages two
 //! uncorrelated pictures and loses contrast; dividing by `sqrt(w^2 + (1-w)^2)` keeps the variance
@@ -16,10 +17,14 @@
 //! Most of the channel is near 0 and the thickest parts reach 1. The runtime magnifies it and multiplies
 //! its contrast by up to five, so it ends with a blur that leaves nothing sharper than a few texels.
 
+#[cfg(test)]
+mod tests;
+
 use welkin_pack::Image;
 
 use crate::error::BakeError;
 use crate::filter::{self, Edge};
+use crate::load::unfit;
 use crate::settings::PhotoSettings;
 
 /// The photograph that is used when a recipe names none; assets-src/SOURCES.md says whose it is.
@@ -63,6 +68,22 @@ const NARROW_SHARE: f32 = 0.4;
 /// Least standard deviation of luminance, 0..1: less is a blank picture, whose noise would be stretched to clouds.
 const LEAST_CONTRAST: f32 = 1.0 / 255.0;
 
+/// Least standard deviation of the blurred ratio from that of the picture's own tint: one step of a byte at middle grey.
+/// Up to half of it is the rounding of the bytes; from there on the ratio counts more and more, and from here on fully.
+const LEAST_TINT: f32 = 1.0 / 255.0 / (0.5 + DARK);
+
+/// What is added to red and blue: a dark texel has no colour worth the name, and so its ratio stays near 1.
+const DARK: f32 = 1.0 / 32.0;
+
+/// Standard deviations that shapes and fine structure are divided by at least: one step of a byte.
+const LEAST_SPREAD: f32 = 1.0 / 255.0;
+
+/// The same of their sum, which is 1 and more in a picture that has either.
+const LEAST_SUM: f32 = 0.5;
+
+/// Contrast that has to be left of it when all that is finer than a few texels is gone.
+const LEAST_LEFT: f32 = 1.0 / 64.0;
+
 /// Share of the tile left quite clear.
 const CLEAR: f32 = 0.05;
 
@@ -84,20 +105,28 @@ pub(crate) fn channel(
         // Rec. 709 luma weights, ITU-R BT.709-6, item 3.2.
         0.2126 * red.texels[i] + 0.7152 * green.texels[i] + 0.0722 * blue.texels[i]
     });
-    let (_, contrast) = luminance.mean_and_spread(0);
-    if contrast < LEAST_CONTRAST {
-        return Err(BakeError::Photo {
-            file: file.to_string(),
-            key: "contrast",
-            found: format!("{contrast:.5}"),
-            expected: format!("at least {LEAST_CONTRAST:.5}; choose a picture that shows clouds"),
-        });
-    }
+    verify_contrast(file, "contrast", &luminance, LEAST_CONTRAST)?;
     let cloud = cloudiness(&red, &blue, &luminance);
-    let tile = close(&cloud, size, margin);
-    let mut channel = soften(&tile);
+    let mut channel = soften(&close(&cloud, size, margin));
+    verify_contrast(file, "contrast of its clouds", &channel, LEAST_LEFT)?;
     filter::calibrate(&mut channel, CLEAR, OUTLIER, settings.mean);
+    verify_contrast(file, "contrast of its channel", &channel, LEAST_CONTRAST)?;
     Ok(channel)
+}
+
+/// Refuses an image that is nearly constant.
+fn verify_contrast(
+    file: &str,
+    key: &'static str,
+    image: &Image,
+    least: f32,
+) -> Result<(), BakeError> {
+    let (_, contrast) = image.mean_and_spread(0);
+    if contrast >= least {
+        return Ok(());
+    }
+    let expected = format!("at least {least:.5}; choose a picture that shows clouds");
+    Err(unfit(file, key, format!("{contrast:.5}"), expected))
 }
 
 /// The middle square of one channel.
@@ -112,23 +141,41 @@ fn square(picture: &Image, channel: usize) -> Image {
 /// Large shapes from the ratio of red to blue, fine structure from flattened luminance; mean 0, spread 1.
 fn cloudiness(red: &Image, blue: &Image, luminance: &Image) -> Image {
     let (width, height) = (red.width, red.height);
-    // A dark texel has no colour worth the name: the floor of 1/32 keeps its ratio near 1.
     let ratio = filter::plane(width, height, |x, y| {
         let i = red.index(x, y);
-        (red.texels[i] + 1.0 / 32.0) / (blue.texels[i] + 1.0 / 32.0)
+        (red.texels[i] + DARK) / (blue.texels[i] + DARK)
     });
+    let weight = SHAPE_WEIGHT * colourfulness(red, blue, &ratio);
     let mut shape = flatten(
         &filter::wide_blur(&ratio, RATIO_BLUR * width as f32),
         1.5 * LIGHT_BLUR,
     );
     let mut fine = flatten(luminance, LIGHT_BLUR);
-    filter::standardise(&mut shape);
-    filter::standardise(&mut fine);
+    filter::standardise(&mut shape, LEAST_SPREAD);
+    filter::standardise(&mut fine, LEAST_SPREAD);
     let cloud = filter::plane(width, height, |x, y| {
         let i = shape.index(x, y);
-        SHAPE_WEIGHT * shape.texels[i] + fine.texels[i]
+        weight * shape.texels[i] + fine.texels[i]
     });
     even_out(&cloud)
+}
+
+/// 1 where the ratio of red to blue tells something, 0 where it is that of one tint but for the rounding of bytes: then red
+/// is everywhere the same share of blue, and what the ratio does follows from luminance.
+fn colourfulness(red: &Image, blue: &Image, ratio: &Image) -> f32 {
+    let sum = |of: fn(f64, f64) -> f64| {
+        let pairs = red.texels.iter().zip(&blue.texels);
+        pairs.map(|(&r, &b)| of(r.into(), b.into())).sum::<f64>()
+    };
+    // The share that fits best. Without any blue there is no ratio either.
+    let share = (sum(|r, b| r * b) / sum(|_, b| b * b).max(f64::MIN_POSITIVE)) as f32;
+    let off = filter::plane(ratio.width, ratio.height, |x, y| {
+        let i = ratio.index(x, y);
+        ratio.texels[i] - (share * blue.texels[i] + DARK) / (blue.texels[i] + DARK)
+    });
+    let blurred = filter::wide_blur(&off, RATIO_BLUR * ratio.width as f32);
+    let (_, spread) = blurred.mean_and_spread(0);
+    (2.0 * spread / LEAST_TINT - 1.0).clamp(0.0, 1.0)
 }
 
 fn soften(tile: &Image) -> Image {
@@ -152,7 +199,7 @@ fn even_out(cloud: &Image) -> Image {
         let i = cloud.index(x, y);
         cloud.texels[i] / libm::sqrtf(variance.texels[i].max(0.0) + 1.0)
     });
-    filter::standardise(&mut even);
+    filter::standardise(&mut even, LEAST_SUM);
     even
 }
 

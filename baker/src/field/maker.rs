@@ -12,7 +12,7 @@ use super::ground::{Ground, SEEN};
 use super::spread::Spread;
 use super::{kinds, model};
 use crate::error::BakeError;
-use crate::inputs::{Inputs, Picture};
+use crate::inputs::{Named, Reader};
 use crate::settings::{BoxSettings, CloudLayerSettings, FieldSettings, ModelSettings, ModelSource};
 use crate::stream::Stream;
 
@@ -29,33 +29,36 @@ const LEAST_SPRITES: usize = 5;
 const LEAST_ASKED: u32 = 12;
 
 /// The files that the settings name, in their order.
-///
-/// # Errors
-/// [`BakeError::Read`], [`BakeError::NoBase`] or [`BakeError::Photo`].
-pub(crate) fn read(settings: &FieldSettings, inputs: Inputs) -> Result<Vec<Picture>, BakeError> {
-    let files = settings.models.iter().enumerate();
-    files
-        .filter_map(|(index, model)| match &model.source {
-            ModelSource::File(file) => Some((index, file)),
-            ModelSource::Boxes(_) => None,
-        })
-        .map(|(index, file)| inputs.read(file, &format!("field.models[{index}].file")))
-        .collect()
+pub(crate) fn files(settings: &FieldSettings) -> Vec<Named> {
+    let models = settings.models.iter().enumerate();
+    let named = |(index, model): (usize, &ModelSettings)| match &model.source {
+        ModelSource::File(file) => Some(named(index, file)),
+        ModelSource::Boxes(_) => None,
+    };
+    models.filter_map(named).collect()
 }
 
-/// Makes the field. `files` are those that [`read`] gives.
+fn named(index: usize, file: &str) -> Named {
+    Named::new(
+        format!("field.models[{index}].file"),
+        file,
+        model::MAX_BYTES,
+    )
+}
+
+/// Makes the field.
 ///
 /// Streams are named by the entry of the recipe and the number of the cloud, such as `field.clouds[0].12`.
 ///
 /// # Errors
-/// [`BakeError::Model`]; [`BakeError::Field`] if it would have more sprites than the settings allow, or more clouds or boxes
+/// Those of reading a file; [`BakeError::Model`]; [`BakeError::Field`] if it would have more sprites than the settings allow, or more clouds or boxes
 /// than a pack holds.
 pub(crate) fn field(
     settings: &FieldSettings,
-    files: &[Picture],
+    reader: &Reader,
     seed: u64,
 ) -> Result<Field, BakeError> {
-    let models = models(settings, files)?;
+    let models = models(settings, reader)?;
     let ground = Ground::new(settings.sections);
     let mut maker = Maker {
         seed,
@@ -82,17 +85,16 @@ pub(crate) fn field(
 }
 
 /// The boxes of every model. All their sprites together are within the limit, before the cull.
-fn models(settings: &FieldSettings, files: &[Picture]) -> Result<Vec<Vec<BoxSettings>>, BakeError> {
-    let mut files = files.iter();
+fn models(settings: &FieldSettings, reader: &Reader) -> Result<Vec<Vec<BoxSettings>>, BakeError> {
     let mut models = Vec::with_capacity(settings.models.len());
     let mut sprites = 0;
     for (index, model) in settings.models.iter().enumerate() {
         let boxes = match &model.source {
             ModelSource::Boxes(boxes) => boxes.clone(),
-            ModelSource::File(_) => match files.next() {
-                Some(file) => model::boxes(&file.bytes, &file.file)?,
-                None => Vec::new(),
-            },
+            ModelSource::File(file) => {
+                let read = reader.read(&named(index, file))?;
+                model::boxes(&read.bytes, &read.file)?
+            }
         };
         let a_copy: u32 = boxes.iter().map(|b| b.sprites).sum();
         sprites += a_copy as usize * model.copies as usize;

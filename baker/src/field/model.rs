@@ -7,7 +7,7 @@ mod extras;
 #[cfg(test)]
 mod tests;
 
-use gltf::{Gltf, Node, Semantic};
+use gltf::{Document, Gltf, Node, Semantic};
 
 use super::boxes::{self, Fault, PLACES_M, SIZES_M};
 use super::cloud::groups;
@@ -16,7 +16,11 @@ use crate::settings::BoxSettings;
 use welkin_pack::limits::MAX_GROUPS;
 
 /// The largest file: boxes take a few kilobytes.
-const MAX_BYTES: usize = 16 << 20;
+pub(crate) const MAX_BYTES: u64 = 16 << 20;
+
+/// The most values of its JSON, those of a mesh's buffers not among them: a box has about 40. The shortest value, `{}`,
+/// takes a hundred times its length once it is read.
+const MAX_VALUES: usize = 1 << 18;
 
 /// The most nodes that are visited, and how deep they may be nested: a file may name a node twice, or within itself.
 const MAX_NODES: usize = 4096;
@@ -31,16 +35,12 @@ type Matrix = [[f32; 4]; 4];
 /// [`BakeError::Model`].
 pub(crate) fn boxes(bytes: &[u8], file: &str) -> Result<Vec<BoxSettings>, BakeError> {
     let unfit = |key: &str, found: String, expected: &str| model_error(file, key, found, expected);
-    if bytes.len() > MAX_BYTES {
-        let expected = "at most 16 MiB; export the boxes alone";
-        return Err(unfit("length", format!("{} bytes", bytes.len()), expected));
+    let values = value_count(bytes);
+    if values > MAX_VALUES {
+        let expected = format!("at most {MAX_VALUES}; export the boxes alone");
+        return Err(unfit("glTF", format!("of {values} values"), &expected));
     }
-    let parsed = if has_sound_header(bytes) {
-        Gltf::from_slice(bytes).map_err(|e| e.to_string())
-    } else {
-        Err("shorter than it says".to_string())
-    };
-    let gltf = parsed.map_err(|found| {
+    let gltf = document(bytes).map_err(|found| {
         let expected = "a whole glTF 2.0 file without required extensions; export it again";
         unfit("glTF", found, expected)
     })?;
@@ -64,6 +64,38 @@ pub(crate) fn boxes(bytes: &[u8], file: &str) -> Result<Vec<BoxSettings>, BakeEr
         return Err(unfit("group", format!("{groups} numbers"), &expected));
     }
     Ok(visit.boxes)
+}
+
+/// The most values that the JSON can have: each but the first follows a comma, a bracket or a brace. A binary file's first
+/// chunk is its JSON.
+fn value_count(bytes: &[u8]) -> usize {
+    let json = match bytes.strip_prefix(b"glTF") {
+        Some(binary) => {
+            let length = binary.get(8..12).and_then(|b| b.first_chunk());
+            let length = length.map_or(0, |b| u32::from_le_bytes(*b) as usize);
+            let json = binary.get(16..).unwrap_or_default();
+            &json[..length.min(json.len())]
+        }
+        None => bytes,
+    };
+    json.iter().filter(|b| b",[{".contains(b)).count()
+}
+
+/// The document, every index of which names something that is there; or what is wrong.
+fn document(bytes: &[u8]) -> Result<Document, String> {
+    if !has_sound_header(bytes) {
+        return Err("shorter than it says".to_string());
+    }
+    let gltf = Gltf::from_slice_without_validation(bytes).map_err(|e| e.to_string())?;
+    let root = gltf.document.into_json();
+    // The library's own look at the positions takes it for granted that they are there.
+    let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let mut accessors = primitives.flat_map(|primitive| primitive.attributes.values());
+    if let Some(missing) = accessors.find(|index| index.value() >= root.accessors.len()) {
+        let (index, count) = (missing.value(), root.accessors.len());
+        return Err(format!("naming accessor {index} of {count}"));
+    }
+    Document::from_json(root).map_err(|e| e.to_string())
 }
 
 /// The library subtracts the header's length from what a binary file says of its own, without a look.

@@ -9,16 +9,8 @@ use exr::meta::header::Header;
 use exr::prelude::{ReadChannels, ReadLayers, read};
 use welkin_pack::Image;
 
-use super::unfit;
+use super::{primaries, unfit};
 use crate::error::BakeError;
-
-/// ITU-R BT.709-6, item 1.3 and 1.4: red, green, blue and white as x, y; what a file without the attribute means.
-const BT_709: [[f32; 2]; 4] = [
-    [0.640, 0.330],
-    [0.300, 0.600],
-    [0.150, 0.060],
-    [0.3127, 0.3290],
-];
 
 /// Red, green and blue times alpha, as the format stores them, and alpha.
 pub(super) fn decode(
@@ -102,21 +94,10 @@ pub(super) fn verify(header: &Header, file: &str) -> Result<(), BakeError> {
             ),
         ));
     }
-    let Some(primaries) = &shared.chromaticities else {
-        return Ok(());
-    };
-    let found = numbers(primaries);
-    let pairs = found.as_flattened().iter().zip(BT_709.as_flattened());
-    // Half of the last digit that the standard gives, and room for programs that round.
-    if pairs.clone().all(|(a, b)| (a - b).abs() < 0.001) {
-        return Ok(());
+    match &shared.chromaticities {
+        Some(found) => primaries::verify(&numbers(found), file, "chromaticities"),
+        None => Ok(()),
     }
-    Err(unfit(
-        file,
-        "chromaticities",
-        format!("{found:?}"),
-        "those of BT.709 (sRGB), linear; convert it",
-    ))
 }
 
 fn numbers(c: &Chromaticities) -> [[f32; 2]; 4] {

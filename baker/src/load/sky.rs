@@ -11,14 +11,14 @@ use crate::inputs::Picture;
 const MAX_SKY_TEXELS: u64 = 1 << 25;
 
 /// The largest radiance that a half float holds.
-const MAX_RADIANCE: f32 = 65504.0;
+pub(crate) const MAX_RADIANCE: f32 = 65504.0;
 
 /// Decodes a sky of any format to linear radiance times cover (red, green, blue) and cover, four channels.
 ///
 /// PNG and JPEG are sRGB-encoded, 1 is white; a PNG's alpha is its cover. Radiance HDR and OpenEXR are linear
 /// BT.709 as stored; an OpenEXR's colours are times its alpha already. `fits` is asked about the size before
-/// anything is allocated for it. Radiance less than 0 becomes 0, and more than a half float holds becomes
-/// the largest half, infinity too: both are usual beside a sun. What is not a number is refused.
+/// anything is allocated for it. Radiance less than 0 becomes 0; infinity, which is usual beside a sun, is left to the
+/// caller. What is not a number is refused.
 pub(crate) fn decode_sky(
     picture: &Picture,
     fits: &dyn Fn(u32, u32) -> Result<(), BakeError>,
@@ -51,7 +51,7 @@ pub(crate) fn decode_sky(
     Ok(image)
 }
 
-/// Brings radiance to what a half float holds and cover to 0..1.
+/// Refuses what is not a number, and brings radiance to 0 and more and cover to 0..1.
 fn tame(image: &mut Image, file: &str) -> Result<(), BakeError> {
     let is_nan = |texel: &[f32]| texel.iter().any(|v| v.is_nan());
     let texels = || image.texels.chunks_exact(image.channels);
@@ -67,7 +67,7 @@ fn tame(image: &mut Image, file: &str) -> Result<(), BakeError> {
     }
     for texel in image.texels.chunks_exact_mut(4) {
         for value in &mut texel[..3] {
-            *value = value.clamp(0.0, MAX_RADIANCE);
+            *value = value.max(0.0);
         }
         texel[3] = texel[3].clamp(0.0, 1.0);
     }

@@ -8,8 +8,9 @@ use image::{DynamicImage, ImageFormat};
 use welkin_pack::role::RoleSpec;
 use welkin_pack::{Format, Image, Role, Shape, Texture, ktx};
 
-use super::{MAX_SIDE, decode_stored, exr as open_exr, unfit, unfit_size, verify_bytes};
+use super::{MAX_FILE_BYTES, MAX_SIDE, decode_stored, exr as open_exr, unfit, unfit_size};
 use crate::error::BakeError;
+use crate::inputs::too_long;
 
 /// A texture from a file, laid out as its role asks.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +43,9 @@ pub fn decode_texture(
     role: Role,
     channel: Option<usize>,
 ) -> Result<TextureFile, BakeError> {
-    verify_bytes(file, bytes)?;
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        return Err(too_long(file, MAX_FILE_BYTES));
+    }
     let wanted = Wanted {
         file,
         role,

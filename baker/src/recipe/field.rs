@@ -6,7 +6,7 @@ use toml::Spanned;
 use super::Entry;
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct FieldTable {
     pub sections: Entry,
     pub most_sprites: Entry,
@@ -16,7 +16,7 @@ pub(crate) struct FieldTable {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct CloudLayer {
     pub kind: Entry,
     pub cover: Entry,
@@ -28,7 +28,7 @@ pub(crate) struct CloudLayer {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct Model {
     pub kind: Entry,
     pub file: Entry,
@@ -40,7 +40,7 @@ pub(crate) struct Model {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct BoxTable {
     pub centre_m: Entry,
     pub size_m: Entry,
@@ -55,7 +55,7 @@ pub(crate) struct BoxTable {
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 pub(crate) struct HourTable {
     pub time: Entry,
     pub ambient: Entry,

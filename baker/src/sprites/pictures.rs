@@ -4,8 +4,8 @@ use welkin_pack::{Image, SheetCell};
 
 use crate::error::BakeError;
 use crate::filter;
-use crate::inputs::{Inputs, Picture};
-use crate::load::{self, unfit, unfit_size};
+use crate::inputs::{Named, Picture, Reader};
+use crate::load::{self, MAX_FILE_BYTES, MAX_RADIANCE, unfit, unfit_size};
 use crate::settings::{SpriteSource, SpritesSettings};
 
 /// Sides that a cell may have in a picture, in texels.
@@ -17,30 +17,31 @@ const MOST_BORDER: f32 = 0.05;
 /// Luminance of linear BT.709 (ITU-R BT.709-6, item 3.2).
 const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
 
-/// Reads the files that the settings name, in the order of the cells.
-pub(crate) fn read(settings: &SpritesSettings, inputs: Inputs) -> Result<Vec<Picture>, BakeError> {
+/// The files that the settings name, in the order of the cells.
+pub(crate) fn files(settings: &SpritesSettings) -> Vec<Named> {
+    let named = |key: String, file: &str| Named::new(key, file, MAX_FILE_BYTES);
     match &settings.source {
-        SpriteSource::Noise(_) => Ok(Vec::new()),
-        SpriteSource::Sheet(file) => Ok(vec![inputs.read(file, "sprites.file")?]),
+        SpriteSource::Noise(_) => Vec::new(),
+        SpriteSource::Sheet(file) => vec![named("sprites.file".to_string(), file)],
         SpriteSource::Cells(files) => {
-            let named = files.iter().enumerate();
-            let read =
-                named.map(|(cell, file)| inputs.read(file, &format!("sprites.pictures[{cell}]")));
-            read.collect()
+            let files = files.iter().enumerate();
+            let named = files.map(|(cell, file)| named(format!("sprites.pictures[{cell}]"), file));
+            named.collect()
         }
     }
 }
 
 /// A picture a cell, `side` texels a side: luminance times opacity, and opacity.
-pub(super) fn cells(pictures: &[Picture], side: u32) -> Result<Vec<Image>, BakeError> {
+pub(super) fn cells(files: &[Named], reader: &Reader, side: u32) -> Result<Vec<Image>, BakeError> {
     let mut cells = Vec::new();
-    for picture in pictures {
-        let a_side = if pictures.len() == 1 {
+    for named in files {
+        let a_side = if files.len() == 1 {
             SheetCell::A_SIDE
         } else {
             1
         };
-        let decoded = decode(picture, a_side)?;
+        let picture = reader.read(named)?;
+        let decoded = decode(&picture, a_side)?;
         for index in 0..a_side * a_side {
             let cell = cut(&decoded, a_side, [index % a_side, index / a_side]);
             let name = if a_side > 1 {
@@ -74,7 +75,8 @@ fn decode(picture: &Picture, a_side: u32) -> Result<Image, BakeError> {
     let mut image = Image::new(decoded.width, decoded.height, 2);
     let texels = image.texels.chunks_exact_mut(2);
     for (texel, from) in texels.zip(decoded.texels.chunks_exact(4)) {
-        let light: f32 = LUMINANCE.iter().zip(from).map(|(w, v)| w * v).sum();
+        let weighted = LUMINANCE.iter().zip(from).map(|(w, v)| w * v);
+        let light = weighted.sum::<f32>().min(MAX_RADIANCE);
         texel.copy_from_slice(&[light, from[3]]);
     }
     Ok(image)

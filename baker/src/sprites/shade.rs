@@ -11,6 +11,12 @@ const OUTLIER: f32 = 1.8;
 /// A standard deviation of less than this share of the mean is rounding.
 const LEAST_SPREAD: f32 = 1e-4;
 
+/// Opacity that light is divided by at least: a picture's least may be no more than a float holds.
+const LEAST_ALPHA: f32 = 1e-6;
+
+/// A picture whose mean light is less is black.
+const LEAST_LIGHT: f32 = 1e-30;
+
 /// Weight of what is around beside a texel's own opacity.
 const AROUND: f32 = 1.0 / 64.0;
 
@@ -19,7 +25,7 @@ const AROUND: f32 = 1.0 / 64.0;
 pub(super) fn standardised(picture: &Image, relief: f32) -> Image {
     let mean = mean(picture);
     let squares = texels(picture).map(|[light, alpha]| {
-        let away = light / alpha.max(f32::MIN_POSITIVE) - mean;
+        let away = light / alpha.max(LEAST_ALPHA) - mean;
         f64::from(alpha * away * away)
     });
     let spread = libm::sqrt(squares.sum::<f64>() / weight(picture)) as f32;
@@ -37,7 +43,7 @@ pub(super) fn standardised(picture: &Image, relief: f32) -> Image {
 /// The same with the relief that a picture has: `contrast` times the light relative to its mean.
 pub(super) fn relative(picture: &Image, contrast: f32) -> Image {
     let mean = mean(picture);
-    let scale = if mean > 0.0 { 0.5 / mean } else { 0.0 };
+    let scale = if mean > LEAST_LIGHT { 0.5 / mean } else { 0.0 };
     finished(picture, |light| contrast * scale * (light - mean))
 }
 
@@ -46,7 +52,8 @@ fn finished(picture: &Image, away: impl Fn(f32) -> f32) -> Image {
     let mut image = picture.clone();
     for texel in image.texels.chunks_exact_mut(2) {
         if texel[1] > 0.0 {
-            texel[0] = texel[1] * (0.5 + away(texel[0] / texel[1])).clamp(0.0, 1.0);
+            texel[0] =
+                texel[1] * (0.5 + away(texel[0] / texel[1].max(LEAST_ALPHA))).clamp(0.0, 1.0);
         }
     }
     let grey = spread_out(&image);
@@ -174,6 +181,25 @@ mod tests {
         assert!(row.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.03));
         let opacity: Vec<f32> = disc(|_, _| 0.0).channel(1).collect();
         assert!(opacity == grey.channel(1).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn the_faintest_and_the_darkest_picture_stay_numbers() {
+        let mut faint = disc(|_, _| 0.3);
+        for (i, texel) in faint.texels.chunks_exact_mut(2).enumerate() {
+            if i % 3 == 0 {
+                texel.copy_from_slice(&[65504.0, 1e-42]);
+            }
+        }
+        for picture in [faint, disc(|u, _| 1e-42 * (2.0 + u)), disc(|_, _| 1e-38)] {
+            for grey in [
+                standardised(&picture, 0.2),
+                relative(&picture, 1.0),
+                relative(&picture, 0.0),
+            ] {
+                assert!(grey.texels.iter().all(|v| (0.0..=1.0).contains(v)));
+            }
+        }
     }
 
     #[test]

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
 use serde_json::Value;
-use welkin_pack::{Pack, Role};
+use welkin_pack::manifest::Input;
+use welkin_pack::{Overwrite, Pack, PackInfo, Role, Source};
 
 use crate::{Desk, contents, default_pack, run, welkin};
 
@@ -49,6 +50,106 @@ fn check_tells_problems_from_what_it_cannot_read() {
     fs::write(pack.join("pack.json"), "{").unwrap();
     run(welkin().arg("check").arg(&pack)).failed(2, &["pack.json"]);
     run(welkin().arg("check").arg(desk.path("none"))).failed(2, &["none"]);
+}
+
+/// Names that would clear the screen, or pass for another line.
+#[test]
+fn what_a_pack_says_of_itself_stays_on_its_line() {
+    const EVIL: &str = "a\u{1b}[2J\nseed            9\u{202e}";
+    const SHOWN: &str = r"a\u{1b}[2J\nseed            9\u{202e}";
+    let desk = Desk::new();
+    let folder = desk.small_pack();
+    let baked = Pack::open(&folder).unwrap();
+    let source = |role: Role| {
+        let texture = baked.texture(role)?;
+        Some(Source {
+            role,
+            format: texture.format,
+            images: (0..texture.layers)
+                .map(|layer| texture.image(0, layer))
+                .collect(),
+        })
+    };
+    let info = PackInfo {
+        name: EVIL.to_string(),
+        seed: 1,
+        baker: EVIL.to_string(),
+        recipe: EVIL.to_string(),
+        inputs: vec![Input {
+            key: EVIL.to_string(),
+            blake3: "0".repeat(64),
+        }],
+        noon_elevation_rad: 1.0,
+        ..PackInfo::default()
+    };
+    let evil = Pack::build(info, Role::ALL.into_iter().filter_map(source).collect()).unwrap();
+    evil.save(&folder, Overwrite::Replace, &|| false).unwrap();
+    for command in ["info", "check"] {
+        let looked = run(welkin().arg(command).arg(&folder));
+        for text in [&looked.stdout, &looked.stderr] {
+            assert!(!text.contains(['\u{1b}', '\u{202e}']), "{command}: {text}");
+            assert!(
+                !text
+                    .lines()
+                    .any(|line| line.starts_with("seed            9"))
+            );
+        }
+        if command == "info" {
+            let lines = looked.done();
+            for label in ["name            ", "baked by        "] {
+                assert!(lines.contains(&format!("{label}{SHOWN}\n")), "{lines}");
+            }
+        }
+    }
+    let manifest = fs::read_to_string(folder.join("pack.json")).unwrap();
+    // Where it is refused, the error quotes it: a role, a file, a version, text that is no JSON.
+    for (from, to) in [
+        ("\"clouds\"", "\"x\\u001b[2J\\ny\""),
+        ("clouds.ktx2", "x\\u001b[2J\\ny"),
+        ("{", "\u{1b}[2J{"),
+    ] {
+        let text = manifest.replacen(from, to, 1);
+        fs::write(folder.join("pack.json"), text).unwrap();
+        for command in ["info", "check", "unpack", "preview"] {
+            let mut asked = welkin();
+            asked.arg(command).arg(&folder);
+            if matches!(command, "unpack" | "preview") {
+                asked.arg("-o").arg(desk.path("out.png"));
+            }
+            let told = run(&mut asked);
+            assert_ne!(told.code, Some(0), "{command} {to}");
+            assert!(
+                !(told.stdout + &told.stderr).contains('\u{1b}'),
+                "{command} {to}"
+            );
+            assert!(told.stderr.lines().count() <= 1, "{}", told.stderr);
+        }
+    }
+}
+
+/// A recipe is quoted where it is wrong; so is the name of a file.
+#[test]
+fn what_a_recipe_says_stays_on_its_line() {
+    let desk = Desk::new();
+    for text in [
+        "name = \"a\u{9b}2J\"",
+        "name = \"a\\u001b[2J\\nb\"",
+        "\"s\\u001b[2J\" = 1",
+        "[sun]\nsize = \"\\u001b[2J\"",
+        "seed = \u{1b}[2J",
+        "[clouds.photo]\nfile = \"\\u001b[2J.png\"",
+        "[skybox]\nfile = \"\\u001b[2J.hdr\"",
+    ] {
+        let recipe = desk.write("sky\u{1b}[2J.toml", text);
+        let told = run(welkin()
+            .arg("bake")
+            .arg(recipe)
+            .arg("-o")
+            .arg(desk.path("pack")));
+        assert_eq!(told.code, Some(1), "{told:?}");
+        assert!(!told.stderr.contains(['\u{1b}', '\u{9b}']), "{told:?}");
+        assert_eq!(told.stderr.lines().count(), 1, "{told:?}");
+    }
 }
 
 #[test]

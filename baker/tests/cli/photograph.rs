@@ -68,6 +68,84 @@ fn missing() {
     refused(None, &["cannot be read", "No such file"]);
 }
 
+/// Nobody wrote a recipe, so none is to blame.
+#[test]
+fn missing_for_photo_alone() {
+    let desk = Desk::new();
+    let run = run(welkin()
+        .arg("photo")
+        .arg(desk.path("none.png"))
+        .arg("-o")
+        .arg(desk.path("tile.png")));
+    assert!(!run.stderr.contains("recipe"), "{run:?}");
+    run.failed(
+        1,
+        &[
+            "none.png: cannot be read: No such file",
+            "name a PNG or JPEG file",
+        ],
+    );
+}
+
+/// Sixteen pictures that together take more memory than there is, and one alone does not. What follows the end of a PNG is
+/// not looked at, but read.
+#[cfg(target_os = "linux")]
+#[test]
+fn pictures_are_read_one_after_another() {
+    const EACH: u64 = 32 << 20;
+    const MEMORY_KIB: u64 = 256 << 10;
+    let desk = Desk::new();
+    let disc = image::GrayAlphaImage::from_fn(32, 32, |x, y| {
+        let [x, y] = [x, y].map(|i| i as f32 - 15.5);
+        image::LumaA([200, if x * x + y * y < 100.0 { 255 } else { 0 }])
+    });
+    let names: Vec<String> = (0..16).map(|i| format!("\"{i}.png\"")).collect();
+    for name in &names {
+        let path = desk.path(name.trim_matches('"'));
+        disc.save(&path).unwrap();
+        let file = fs::File::options().write(true).open(&path).unwrap();
+        file.set_len(EACH).unwrap();
+    }
+    let pictures = format!("[sprites]\nsize = 128\npictures = [{}]\n", names.join(", "));
+    let text = crate::SMALL_RECIPE.replace("[sprites]\nsize = 128\n", &pictures);
+    let recipe = desk.write("sky.toml", text);
+    let bake = "ulimit -d $0; exec \"$1\" bake \"$2\" -o \"$3\" --threads 1";
+    let mut limited = std::process::Command::new("sh");
+    limited.args([
+        "-c",
+        bake,
+        &MEMORY_KIB.to_string(),
+        env!("CARGO_BIN_EXE_welkin"),
+    ]);
+    run(limited.arg(&recipe).arg(desk.path("pack"))).done();
+    let manifest = fs::read_to_string(desk.path("pack/pack.json")).unwrap();
+    let hash = blake3::hash(&fs::read(desk.path("7.png")).unwrap()).to_hex();
+    assert_eq!(manifest.matches(hash.as_str()).count(), 16);
+}
+
+/// A model is refused before more than its limit is read.
+#[test]
+fn a_long_model_is_told_its_limit() {
+    let desk = Desk::new();
+    fs::File::create(desk.path("m.glb"))
+        .unwrap()
+        .set_len((16 << 20) + 1)
+        .unwrap();
+    let recipe = desk.write(
+        "sky.toml",
+        "[[field.models]]\nkind = \"cumulus\"\nfile = \"m.glb\"\n",
+    );
+    let bake = run(welkin()
+        .arg("bake")
+        .arg(recipe)
+        .arg("-o")
+        .arg(desk.path("pack")));
+    bake.failed(
+        1,
+        &["m.glb: length is over 16 MiB, expected at most 16 MiB"],
+    );
+}
+
 #[test]
 fn truncated() {
     let bytes = fs::read(god_rays()).unwrap();

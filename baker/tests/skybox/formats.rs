@@ -1,11 +1,15 @@
 //! What the values of each format become.
 
+use std::collections::BTreeMap;
 use std::io::Cursor;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
 
 use exr::prelude::Compression;
 use image::codecs::hdr::HdrEncoder;
-use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb, Rgba};
-use welkin_baker::skybox_faces;
+use image::codecs::png::PngEncoder;
+use image::{DynamicImage, ExtendedColorType, ImageBuffer, ImageEncoder, ImageFormat, Rgb, Rgba};
+use welkin_baker::{Inputs, Notice, Recipe, bake_from, skybox_faces};
 use welkin_pack::Image;
 
 use crate::{bake, exr, panorama, plain_exr, scene, settings, worst};
@@ -108,6 +112,101 @@ fn radiance_hdr_is_taken_as_stored_under_either_signature() {
     // What a file is, its content says.
     assert_close(flat("sky.png", &bytes), expected, 1e-6);
 }
+
+/// A camera that was held upright says so; its rows are the picture's columns.
+#[test]
+fn a_picture_that_lies_on_its_side_is_turned_upright() {
+    let upright = ImageBuffer::from_fn(64, 32, |x, y| Rgb([4 * x as u8, 8 * y as u8, 90_u8]));
+    let expected = bake(
+        "sky.png",
+        &encoded(upright.clone(), ImageFormat::Png),
+        Some(16),
+    )
+    .unwrap();
+    // Exif 2.32, orientation 6: row 0 of the file is the right side, column 0 the top.
+    let stored = ImageBuffer::from_fn(32, 64, |x, y| *upright.get_pixel(63 - y, x));
+    let mut bytes = Vec::new();
+    let mut encoder = PngEncoder::new(&mut bytes);
+    encoder.set_exif_metadata(exif(6)).unwrap();
+    encoder
+        .write_image(stored.as_raw(), 32, 64, ExtendedColorType::Rgb8)
+        .unwrap();
+    assert_eq!(bake("sky.png", &bytes, Some(16)).unwrap(), expected);
+}
+
+/// The least Exif block that has an orientation: a TIFF header, one entry, no further directory.
+fn exif(orientation: u8) -> Vec<u8> {
+    let mut bytes = b"MM\0\x2a\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0".to_vec();
+    bytes.extend([orientation, 0, 0, 0, 0, 0, 0]);
+    bytes
+}
+
+/// A sun that a half float does not hold: a gain that is low enough keeps the light that the same gain after the cut would
+/// have lost.
+#[test]
+fn a_gain_keeps_the_light_of_a_sun() {
+    let sun = panorama(64, |[_, up, _]| {
+        if up > 0.9 {
+            [4e5, 2e5, 1e5, 1.0]
+        } else {
+            [1.0; 4]
+        }
+    });
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("sun.exr"), plain_exr(&sun)).unwrap();
+    let mut settings = settings("sun.exr", Some(16));
+    settings.gain = 0.1;
+    let faces = skybox_faces(&settings, Some(folder.path())).unwrap();
+    assert_eq!(faces[2].texel(8, 8), [4e4, 2e4, 1e4, 1.0]);
+    settings.gain = 1.0;
+    let faces = skybox_faces(&settings, Some(folder.path())).unwrap();
+    assert_eq!(faces[2].texel(8, 8), [65504.0, 65504.0, 65504.0, 1.0]);
+}
+
+/// What a bake tells of a skybox that was cut, and that the gain which it names is told of no more.
+#[test]
+fn a_bake_tells_how_much_light_was_cut_and_which_gain_keeps_it() {
+    let sun = panorama(64, |_| [4e5, 2e5, 1e5, 1.0]);
+    let files = BTreeMap::from([("sun.exr".to_string(), plain_exr(&sun))]);
+    let notices = |gain: f32| {
+        let text = format!("{SMALL}[skybox]\nfile = \"sun.exr\"\nsize = 16\ngain = {gain}\n");
+        let resolved = Recipe::parse("sky.toml", &text)
+            .unwrap()
+            .resolve(None)
+            .unwrap();
+        let told = Mutex::new(Vec::new());
+        bake_from(&resolved, Inputs::Memory(&files), &|progress| {
+            told.lock().unwrap().extend(progress.notice);
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+        told.into_inner().unwrap()
+    };
+    let told = notices(1.0);
+    let [Notice::SkyboxClipped(clipped)] = told[..] else {
+        panic!("{told:?}");
+    };
+    let luminance = |[r, g, b]: [f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let expected = 1.0 - luminance([65504.0; 3]) / luminance([4e5, 2e5, 1e5]);
+    assert!(
+        (clipped.share - expected).abs() < 1e-4,
+        "{clipped:?} {expected}"
+    );
+    assert_eq!(clipped.texels, 6 * 16 * 16);
+    assert_eq!(
+        (clipped.brightest, clipped.keeping_gain),
+        (4e5, Some(0.163))
+    );
+    let text = told[0].to_string();
+    assert!(
+        text.contains("% of the light was cut; `skybox.gain = 0.163` keeps all of it"),
+        "{text}"
+    );
+    assert!(notices(0.163).is_empty());
+}
+
+const SMALL: &str = "[clouds]\nsize = 64\n[stars]\nsize = 64\ncount = 50\n[galaxy]\nsize = 32\n[fbm]\nsize = 64\ncells = 16\n\
+    [flares]\nsize = 64\n[layers]\nsize = 64\n[sprites]\nsize = 128\n[field]\nsections = 0\n";
 
 #[test]
 fn every_compression_of_openexr_is_read() {

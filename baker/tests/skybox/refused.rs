@@ -245,6 +245,61 @@ fn an_openexr_that_would_come_out_wrong_is_refused() {
 }
 
 #[test]
+fn a_radiance_file_of_other_primaries_is_refused_as_an_openexr_is() {
+    let whole = hdr(128, 64);
+    let with = |line: &str| {
+        let end = b"#?RADIANCE\n".len();
+        [&whole[..end], line.as_bytes(), b"\n", &whole[end..]].concat()
+    };
+    // ACES2065-1 (SMPTE ST 2065-1), Display P3, BT.2020, and no numbers.
+    for (line, found) in [
+        (
+            "PRIMARIES=0.7347 0.2653 0 1 0.0001 -0.077 0.32168 0.33767",
+            "[[0.7347, 0.2653]",
+        ),
+        (
+            "PRIMARIES=\t0.680 0.320 0.265 0.690 0.150 0.060 0.3127 0.3290",
+            "[[0.68, 0.32]",
+        ),
+        (
+            "PRIMARIES= 0.708 0.292 0.170 0.797 0.131 0.046 0.3127 0.3290",
+            "[[0.708, 0.292]",
+        ),
+        (
+            "PRIMARIES=0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.3290\nPRIMARIES=0.7 0.3 0.3 0.6 0.15 0.06 0.3127 0.3290",
+            "[[0.7, 0.3]",
+        ),
+        (
+            "PRIMARIES=nan 0.33 0.3 0.6 0.15 0.06 0.3127 0.3290",
+            "[[NaN, 0.33]",
+        ),
+    ] {
+        let text = error(&with(line));
+        assert!(
+            text.contains(&format!("PRIMARIES is {found}")) && text.contains("BT.709"),
+            "{text}"
+        );
+    }
+    for line in ["PRIMARIES=0.64 0.33", "PRIMARIES=red \u{1b}[31m"] {
+        let text = error(&with(line));
+        assert!(
+            text.contains("expected eight numbers") && !text.contains('\u{1b}'),
+            "{text}"
+        );
+    }
+    // BT.709 as programs write it, nothing as Photoshop does, and what the format means by itself.
+    for line in [
+        "PRIMARIES=0.640 0.330 0.300 0.600 0.150 0.060 0.3127 0.3290",
+        "PRIMARIES= .64 .33 .3 .6 .15 .06 .3127 .329",
+        "PRIMARIES=0 0 0 0 0 0 0 0",
+        "PRIMARIES=",
+        "PRIMARIES=0.640 0.330 0.290 0.600 0.150 0.060 0.333 0.333",
+    ] {
+        bake("my sky", &with(line), Some(16)).unwrap();
+    }
+}
+
+#[test]
 fn files_that_cannot_be_read_are_named_with_their_key() {
     let folder = tempfile::tempdir().unwrap();
     let missing = skybox_faces(&settings("none.exr", None), Some(folder.path())).unwrap_err();

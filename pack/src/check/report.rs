@@ -5,6 +5,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::rule::{RULES, Rule, Severity};
+use crate::shown;
 
 /// How a rule came out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -58,15 +59,20 @@ impl fmt::Display for Finding {
             (Outcome::Failed, Severity::Error) => "ERROR",
             (Outcome::Failed, Severity::Warning) => "warning",
         };
-        write!(f, "{outcome:<8} {:<18} {:<18}", self.rule, self.subject)?;
+        write!(
+            f,
+            "{outcome:<8} {:<18} {:<18}",
+            self.rule,
+            shown(&self.subject)
+        )?;
         if let Some(figure) = self.figure_text() {
             write!(f, " {figure:<10}")?;
         }
         if !self.expected.is_empty() {
-            write!(f, " expected {}", self.expected)?;
+            write!(f, " expected {}", shown(&self.expected))?;
         }
         if !self.note.is_empty() {
-            write!(f, "; {}", self.note)?;
+            write!(f, "; {}", shown(&self.note))?;
         }
         Ok(())
     }

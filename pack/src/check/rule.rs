@@ -114,6 +114,7 @@ rules! {
     SPRITE_FOG = warning("sprite-fog", "Foggy sprites are smoother than puffs.");
     SKYBOX_RANGE = error("skybox-range", "Radiance is finite and not negative, and the cover between 0 and 1.");
     SKYBOX_SEAM = warning("skybox-seam", "Across the 12 edges of the cube the picture changes no more than beside them.");
+    SKYBOX_CLIP = warning("skybox-clip", "No texel of the skybox is as bright as a half float can be: light was cut there.");
     FIELD_FILE = error("field-file", "The field of clouds is a glTF file as the format describes it, with the counts of the manifest.");
     FIELD_RANGE = error("field-range", "Every number of the field is finite and in its range.");
     FIELD_INDEX = error("field-index", "Every sprite names a picture of the sheet and a box of its cloud, and every box a shading group.");

@@ -1,7 +1,7 @@
 //! The skybox.
 
 use super::report::{Bound, Report};
-use super::rule::{SKYBOX_RANGE, SKYBOX_SEAM};
+use super::rule::{SKYBOX_CLIP, SKYBOX_RANGE, SKYBOX_SEAM};
 use super::subject;
 use crate::mapping::cube_texel;
 use crate::view::{Texel, View};
@@ -13,6 +13,8 @@ const COVER: usize = 3;
 pub(super) fn check(report: &mut Report, texture: &Texture) {
     let wrong: usize = texture.views().map(out_of_range).sum();
     report.measure(SKYBOX_RANGE, NAME, wrong as f64, Bound::AtMost(0.0));
+    let clipped = clipped(texture);
+    report.measure(SKYBOX_CLIP, NAME, clipped as f64, Bound::AtMost(0.0));
     let faces: Vec<View> = (0..texture.layers).map(|f| texture.view(0, f)).collect();
     for channel in 0..=COVER {
         let name = subject(Role::Skybox, channel);
@@ -32,6 +34,13 @@ fn out_of_range(image: View) -> usize {
         texel.iter().all(|v| v.is_finite() && *v >= 0.0) && cover <= 1.0
     };
     image.texels().filter(|texel| !sound(texel)).count()
+}
+
+/// Texels that are as bright as a half float can be: brighter ones were cut to that, and none is so bright by itself.
+fn clipped(texture: &Texture) -> usize {
+    let largest = half::f16::MAX.to_f32();
+    let is_largest = |texel: &Texel| texel[..COVER].iter().any(|v| *v >= largest);
+    texture.view_of_level(0).texels().filter(is_largest).count()
 }
 
 /// The worst ratio, over the edges of the cube, of the mean difference across the edge to the largest mean

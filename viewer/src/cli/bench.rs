@@ -22,12 +22,12 @@ pub struct BenchArgs {
     #[arg(long, value_enum)]
     pub scene: Option<SpriteScene>,
     /// Radius of the ring of impostors of --method sprites in metres, 4000 to 60000: small is fast, but shows
-    #[arg(long, value_name = "M", value_parser = ring_radius_m, default_value_t = RING_M, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", value_parser = ring_radius_m, default_value_t = RING_M, allow_hyphen_values = true)]
     pub ring: f32,
     /// Measure as a paper did, which sets method and sizes, and print its figures beside
     #[arg(long, value_enum)]
     pub protocol: Option<Protocol>,
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000), allow_negative_numbers = true, help = frames_help())]
+    #[arg(long, value_name = "N", value_parser = frames, allow_hyphen_values = true, help = frames_help())]
     pub frames: Option<u32>,
     /// Print JSON instead of a table
     #[arg(long)]
@@ -41,6 +41,8 @@ const SIZE: [u32; 2] = [1600, 1200];
 const RING_M: f32 = 6_000.0;
 /// Frames where neither says how many.
 const FRAMES: u32 = 100;
+/// The most that are asked for.
+const MOST_FRAMES: u32 = 100_000;
 
 fn size_help() -> String {
     let [width, height] = SIZE;
@@ -50,7 +52,7 @@ fn size_help() -> String {
 fn frames_help() -> String {
     let theirs = Protocol::Mukhina.frames();
     format!(
-        "Frames that are timed, after a warm-up, 1 to 100000 [default: {FRAMES}; {theirs} with --protocol mukhina]"
+        "Frames that are timed, after a warm-up, 1 to {MOST_FRAMES} [default: {FRAMES}; {theirs} with --protocol mukhina]"
     )
 }
 
@@ -98,6 +100,13 @@ impl Protocol {
         match self {
             Protocol::Mukhina => 500,
         }
+    }
+}
+
+fn frames(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(count) if (1..=MOST_FRAMES).contains(&count) => Ok(count),
+        _ => Err(format!("expected a whole number from 1 to {MOST_FRAMES}")),
     }
 }
 

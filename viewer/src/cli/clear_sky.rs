@@ -15,10 +15,10 @@ pub struct ClearSkyArgs {
     #[arg(long, value_enum, default_value_t = SkyName::Gradient)]
     pub sky: SkyName,
     /// perez: haze in the air, 1.7 (clear) to 10 (thick)
-    #[arg(long, value_name = "T", default_value_t = PerezParams::default().turbidity, value_parser = turbidity, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", default_value_t = PerezParams::default().turbidity, value_parser = turbidity, allow_hyphen_values = true)]
     pub turbidity: f32,
     /// perez: luminance of a standard sky of ISO 15469, 1 (overcast) to 12 (clear) to 15 [default: by the turbidity]
-    #[arg(long, value_name = "N", value_parser = cie_type, allow_negative_numbers = true, conflicts_with = "perez")]
+    #[arg(long, value_name = "N", value_parser = cie_type, allow_hyphen_values = true, conflicts_with = "perez")]
     pub cie: Option<u8>,
     #[arg(long, value_name = "A,B,C,D,E", value_parser = perez, allow_hyphen_values = true, help = perez_help())]
     pub perez: Option<[f32; 5]>,

@@ -10,16 +10,16 @@ use super::values::{formation_interval_s, octaves, three_units, unit};
 #[command(next_help_heading = "Clouds of one method")]
 pub struct CloudArgs {
     /// packed, sprites: amount of a thin upper layer, 0 (none) to 1
-    #[arg(long, value_name = "U", default_value_t = SkyParams::default().upper_layer, value_parser = unit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "U", default_value_t = SkyParams::default().upper_layer, value_parser = unit, allow_hyphen_values = true)]
     pub upper: f32,
     /// octaves: how many are summed, 1 to 8
-    #[arg(long, value_name = "N", default_value_t = OctaveParams::default().count, value_parser = octaves, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = OctaveParams::default().count, value_parser = octaves, allow_hyphen_values = true)]
     pub octaves: u32,
-    #[arg(long, value_name = "SECONDS", value_parser = formation_interval_s, allow_negative_numbers = true, help = interval_help())]
+    #[arg(long, value_name = "SECONDS", value_parser = formation_interval_s, allow_hyphen_values = true, help = interval_help())]
     pub formation_interval: Option<f32>,
     #[arg(long, value_name = "LOW,MIDDLE,HIGH", value_parser = three_units, allow_hyphen_values = true, help = domes_help())]
     pub domes: Option<[f32; 3]>,
-    #[arg(long, value_name = "S", value_parser = unit, allow_negative_numbers = true, help = sharpness_help())]
+    #[arg(long, value_name = "S", value_parser = unit, allow_hyphen_values = true, help = sharpness_help())]
     pub sharpness: Option<f32>,
     /// fbm: colours of the clouds
     #[arg(long, value_enum, default_value_t = Palette::Fair)]

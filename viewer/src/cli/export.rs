@@ -19,13 +19,13 @@ const USUAL_FPS: f64 = 30.0;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Environment maps and sequences")]
 pub struct ExportArgs {
-    #[arg(long, value_name = "W", conflicts_with = "cubemap", value_parser = width, allow_negative_numbers = true, help = equirect_help())]
+    #[arg(long, value_name = "W", conflicts_with = "cubemap", value_parser = width, allow_hyphen_values = true, help = equirect_help())]
     pub equirect: Option<u32>,
-    #[arg(long, value_name = "N", value_parser = side, allow_negative_numbers = true, help = cubemap_help())]
+    #[arg(long, value_name = "N", value_parser = side, allow_hyphen_values = true, help = cubemap_help())]
     pub cubemap: Option<u32>,
-    #[arg(long, value_name = "N", value_parser = frames, allow_negative_numbers = true, help = frames_help())]
+    #[arg(long, value_name = "N", value_parser = frames, allow_hyphen_values = true, help = frames_help())]
     pub frames: Option<u32>,
-    #[arg(long, value_name = "F", requires = "frames", value_parser = fps, allow_negative_numbers = true, help = fps_help())]
+    #[arg(long, value_name = "F", requires = "frames", value_parser = fps, allow_hyphen_values = true, help = fps_help())]
     pub fps: Option<f64>,
     /// Draw one of several parts of the sequence, such as 2/4: every fourth frame, from the second on. Together the parts are the
     /// whole, byte for byte; several may be drawn into the same folder at the same time

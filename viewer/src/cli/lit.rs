@@ -19,29 +19,29 @@ pub struct LitArgs {
     #[arg(long, value_name = LAYERS_FORM, value_parser = layers, allow_hyphen_values = true, help = layers_help())]
     pub layers: Option<[LitLayer; MAX_LAYERS]>,
     /// Radius of the dome's rim in metres, 1000 to 1000000
-    #[arg(long, value_name = "M", default_value_t = LitParams::default().radius_m, value_parser = radius_m, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", default_value_t = LitParams::default().radius_m, value_parser = radius_m, allow_hyphen_values = true)]
     pub dome_radius: f32,
     /// Height of the dome over its radius, 0.02 (flat) to 1 (a hemisphere)
-    #[arg(long, value_name = "F", default_value_t = LitParams::default().flattening, value_parser = flattening, allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", default_value_t = LitParams::default().flattening, value_parser = flattening, allow_hyphen_values = true)]
     pub flattening: f32,
     /// Light that clouds scatter to all sides, 0 to 1
-    #[arg(long, value_name = "K", default_value_t = LitParams::default().k1, value_parser = k1, allow_negative_numbers = true)]
+    #[arg(long, value_name = "K", default_value_t = LitParams::default().k1, value_parser = k1, allow_hyphen_values = true)]
     pub k1: f32,
     /// Light that they scatter forwards, which shines around the sun, 0 to 1
-    #[arg(long, value_name = "K", default_value_t = LitParams::default().k2, value_parser = k2, allow_negative_numbers = true)]
+    #[arg(long, value_name = "K", default_value_t = LitParams::default().k2, value_parser = k2, allow_hyphen_values = true)]
     pub k2: f32,
     /// How narrow the shine around the sun is and how fast shade deepens, 0.5 to 16
-    #[arg(long, value_name = "M", default_value_t = LitParams::default().m, value_parser = m, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", default_value_t = LitParams::default().m, value_parser = m, allow_hyphen_values = true)]
     pub m: f32,
     /// Strength of the full moon's light on clouds, 0 to 1
-    #[arg(long, value_name = "S", default_value_t = LitParams::default().moon, value_parser = moon, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value_t = LitParams::default().moon, value_parser = moon, allow_hyphen_values = true)]
     pub moon: f32,
     /// Write the clouds' shadows on the ground too: the share of direct light, black where none comes through, north at the
     /// top. A file of that name is replaced
     #[arg(long, value_name = "FILE.png", value_parser = PathBufValueParser::new().try_map(png_name))]
     pub shadow: Option<PathBuf>,
     /// Side of the square around the viewer that the shadows cover, in metres, 1 to 1000000
-    #[arg(long, value_name = "M", requires = "shadow", default_value_t = SHADOW_EXTENT_M, value_parser = shadow_extent_m, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", requires = "shadow", default_value_t = SHADOW_EXTENT_M, value_parser = shadow_extent_m, allow_hyphen_values = true)]
     pub shadow_extent: f32,
 }
 

@@ -31,7 +31,7 @@ pub struct RenderArgs {
     #[arg(long, value_enum, default_value_t = MethodName::Packed)]
     pub method: MethodName,
     /// Moment of the animation, in seconds
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = seconds, allow_hyphen_values = true)]
     pub at: f64,
     #[command(flatten)]
     pub sky: SkyArgs,
@@ -85,25 +85,25 @@ impl From<MethodName> for Method {
 #[command(next_help_heading = "Sky, each from 0 to 1")]
 pub struct SkyArgs {
     /// Cloud cover: 0 none, 1 all
-    #[arg(long, value_name = "C", default_value_t = SkyParams::default().cover, value_parser = unit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "C", default_value_t = SkyParams::default().cover, value_parser = unit, allow_hyphen_values = true)]
     pub cover: f32,
     /// The cover that shows so many eighths of cloud on average, 0 to 8: 0 none, 8 all
-    #[arg(long, value_name = "N", conflicts_with = "cover", value_parser = oktas, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", conflicts_with = "cover", value_parser = oktas, allow_hyphen_values = true)]
     pub oktas: Option<f32>,
     /// Height of the clouds: 0 low, 1 high
-    #[arg(long, value_name = "H", default_value_t = SkyParams::default().height, value_parser = unit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", default_value_t = SkyParams::default().height, value_parser = unit, allow_hyphen_values = true)]
     pub height: f32,
     /// Density of the clouds: 0 thin and bumpy, 1 thick, smooth and dark
-    #[arg(long, value_name = "D", default_value_t = SkyParams::default().density, value_parser = unit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "D", default_value_t = SkyParams::default().density, value_parser = unit, allow_hyphen_values = true)]
     pub density: f32,
     /// Amount of red on the clouds of a sunset
-    #[arg(long, value_name = "S", default_value_t = SkyParams::default().sunset, value_parser = unit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value_t = SkyParams::default().sunset, value_parser = unit, allow_hyphen_values = true)]
     pub sunset: f32,
     /// Speed of the clouds
-    #[arg(long, value_name = "S", default_value_t = SkyParams::default().speed, value_parser = unit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value_t = SkyParams::default().speed, value_parser = unit, allow_hyphen_values = true)]
     pub speed: f32,
     /// Time of day: 0 midnight, 0.25 sunrise, 0.5 noon, 0.75 sunset
-    #[arg(long, value_name = "T", default_value_t = SkyParams::default().time, value_parser = unit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", default_value_t = SkyParams::default().time, value_parser = unit, allow_hyphen_values = true)]
     pub time: f32,
 }
 
@@ -111,9 +111,9 @@ pub struct SkyArgs {
 #[command(next_help_heading = "Sun, stars and background")]
 pub struct LightArgs {
     /// Strength of the lens flare, 0 (off) to 1
-    #[arg(long, value_name = "F", default_value_t = SkyParams::default().flare, value_parser = unit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", default_value_t = SkyParams::default().flare, value_parser = unit, allow_hyphen_values = true)]
     pub flare: f32,
-    #[arg(long, value_name = "S", value_parser = unit, allow_negative_numbers = true, help = skybox_help())]
+    #[arg(long, value_name = "S", value_parser = unit, allow_hyphen_values = true, help = skybox_help())]
     pub skybox: Option<f32>,
     /// Leave out the sun's disc and glow
     #[arg(long)]
@@ -134,22 +134,22 @@ fn skybox_help() -> String {
 #[command(next_help_heading = "Camera")]
 pub struct CameraArgs {
     /// Azimuth of the view, from north (0) towards east (90), -360 to 360 [default: 180; 0 with --equirect]
-    #[arg(long, value_name = "DEG", value_parser = azimuth_deg, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", value_parser = azimuth_deg, allow_hyphen_values = true)]
     pub azimuth: Option<f32>,
     /// Elevation of the view, -90 to 90: 0 is the horizon, 90 the zenith
-    #[arg(long, value_name = "DEG", default_value_t = Viewpoint::default().elevation_deg, value_parser = elevation_deg, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = Viewpoint::default().elevation_deg, value_parser = elevation_deg, allow_hyphen_values = true)]
     pub elevation: f32,
     /// Vertical field of view, 1 to 150
-    #[arg(long, value_name = "DEG", default_value_t = Viewpoint::default().fov_deg, value_parser = fov_deg, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = Viewpoint::default().fov_deg, value_parser = fov_deg, allow_hyphen_values = true)]
     pub fov: f32,
     /// Where the viewer stands, metres to the east, -1000000 to 1000000
-    #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = place_m, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = place_m, allow_hyphen_values = true)]
     pub east: f32,
     /// Metres to the north, of the same range
-    #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = place_m, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = place_m, allow_hyphen_values = true)]
     pub north: f32,
     /// Metres up, of the same range
-    #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = place_m, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = place_m, allow_hyphen_values = true)]
     pub up: f32,
 }
 

@@ -14,19 +14,19 @@ pub struct SpriteArgs {
     #[arg(long, value_enum, default_value_t = MethodName::Sprites)]
     pub behind: MethodName,
     /// Cover of that dome, 0 to 1
-    #[arg(long, value_name = "C", default_value_t = SpriteParams::default().behind_cover, value_parser = unit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "C", default_value_t = SpriteParams::default().behind_cover, value_parser = unit, allow_hyphen_values = true)]
     pub behind_cover: f32,
     /// How far clouds are seen, in metres, 8000 to 60000
-    #[arg(long, value_name = "M", default_value_t = SpriteParams::default().distance_m, value_parser = distance_m, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", default_value_t = SpriteParams::default().distance_m, value_parser = distance_m, allow_hyphen_values = true)]
     pub sight: f32,
     /// Radius of the ring of impostors in metres, 4000 to 60000: clouds beyond it are pictures; 0 for no ring
-    #[arg(long, value_name = "M", default_value_t = SpriteParams::default().ring_radius_m, value_parser = ring_radius_m, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", default_value_t = SpriteParams::default().ring_radius_m, value_parser = ring_radius_m, allow_hyphen_values = true)]
     pub ring: f32,
     /// Distance beyond which a cloud is one billboard, in metres, 2000 to 60000
-    #[arg(long, value_name = "M", default_value_t = SpriteParams::default().billboards_beyond_m, value_parser = billboards_beyond_m, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", default_value_t = SpriteParams::default().billboards_beyond_m, value_parser = billboards_beyond_m, allow_hyphen_values = true)]
     pub billboards: f32,
     /// The most that clouds have formed, 0 (nothing) to 1 (whole)
-    #[arg(long, value_name = "F", default_value_t = SpriteParams::default().formation, value_parser = unit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", default_value_t = SpriteParams::default().formation, value_parser = unit, allow_hyphen_values = true)]
     pub formation: f32,
 }
 

@@ -11,10 +11,10 @@ use super::values::unit;
 #[command(next_help_heading = "Weather")]
 pub struct WeatherArgs {
     /// Strength of the sun's rays between the clouds, 0 (off) to 1
-    #[arg(long, value_name = "R", default_value_t = WeatherParams::default().rays, value_parser = unit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", default_value_t = WeatherParams::default().rays, value_parser = unit, allow_hyphen_values = true)]
     pub rays: f32,
     /// Strength of the rain, 0 (off) to 1
-    #[arg(long, value_name = "R", default_value_t = WeatherParams::default().rain, value_parser = unit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", default_value_t = WeatherParams::default().rain, value_parser = unit, allow_hyphen_values = true)]
     pub rain: f32,
     /// A flash inside the clouds: its place, in kilometres to the east and to the south of the world's origin, -1000 to 1000;
     /// the second at which it begins, or else just before --at; its strength, 0 to 1, or else 1

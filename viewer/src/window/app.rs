@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result};
+use anyhow::{Result, anyhow};
 use welkin_controls::Pilot;
 use welkin_pack::Pack;
 use winit::application::ApplicationHandler;
@@ -20,6 +20,7 @@ use super::graphics::Graphics;
 use super::state::{State, read_settings};
 use super::{Wake, keyboard, panel, watch};
 use crate::cli::WindowArgs;
+use crate::told::told;
 
 /// The longest step of a frame: after a pause of the machine the sky does not leap.
 const LONGEST_STEP_S: f32 = 0.25;
@@ -80,9 +81,9 @@ impl App {
         let attributes = Window::default_attributes()
             .with_title("Welkin")
             .with_inner_size(PhysicalSize::new(width, height));
-        let window = event_loop
-            .create_window(attributes)
-            .context("no window can be opened; look whether the desktop session is well")?;
+        let window = event_loop.create_window(attributes).map_err(|e| {
+            anyhow!("no window can be opened: {e}; look whether the desktop session is well")
+        })?;
         self.open_graphics(event_loop, window.into())?;
         if let Some(recipe) = self.watched.clone() {
             watch::begin(recipe, self.proxy.clone());
@@ -159,7 +160,7 @@ impl App {
             match self.fulfil(wish) {
                 Ok(Some(done)) => self.state.tell(done),
                 Ok(None) => {}
-                Err(error) => self.state.tell_error(format!("{error:#}")),
+                Err(error) => self.state.tell_error(told(&error)),
             }
         }
     }
@@ -225,7 +226,7 @@ impl App {
             }
             Dropped::Settings(file) => match read_settings(&file) {
                 Ok(settings) => (self.state.settings, self.state.blend) = (settings, None),
-                Err(error) => self.state.tell_error(format!("{error:#}")),
+                Err(error) => self.state.tell_error(told(&error)),
             },
             Dropped::Unknown(text) => self.state.tell_error(text),
         }

@@ -2,16 +2,17 @@
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, anyhow, bail};
 use welkin_baker::Recipe;
 use welkin_pack::{Overwrite, Pack};
 use winit::event_loop::EventLoopProxy;
 
 use super::Wake;
 use super::recipe::with_photo;
+use crate::told::told;
 
 /// What to bake.
 #[derive(Clone, Debug)]
@@ -39,7 +40,7 @@ pub struct Baked {
     pub pack: Pack,
     /// The folder that it was written to.
     pub saved_to: Option<PathBuf>,
-    /// What `welkin check` warns of.
+    /// What the bake tells, and what `welkin check` warns of.
     pub warnings: Vec<String>,
 }
 
@@ -71,7 +72,7 @@ impl Baker {
                     proxy.send_event(Wake::Baking(step, share)).ok();
                 }
             };
-            let baked = bake(&job, &is_newest, &tell).map_err(|error| format!("{error:#}"));
+            let baked = bake(&job, &is_newest, &tell).map_err(|error| told(&error));
             if is_newest() {
                 proxy.send_event(Wake::Baked(baked.into())).ok();
             }
@@ -91,8 +92,12 @@ fn bake(
     };
     // A photograph that was dropped has a whole path, which needs no folder to start from.
     let base = base.or(job.photo.as_deref().and_then(Path::parent));
+    let notices = Mutex::new(Vec::new());
     let pack = welkin_baker::bake(&recipe.resolve(None)?, base, &|progress| {
         tell(progress.step, progress.done as f32 / progress.total as f32);
+        if let (Some(notice), Ok(mut notices)) = (progress.notice, notices.lock()) {
+            notices.push(notice.to_string());
+        }
         if is_newest() {
             ControlFlow::Continue(())
         } else {
@@ -100,7 +105,8 @@ fn bake(
         }
     })?;
     tell("check", 1.0);
-    let warnings = checked(&pack)?;
+    let mut warnings = notices.into_inner().unwrap_or_default();
+    warnings.extend(checked(&pack)?);
     if let Some(folder) = &job.save_to {
         pack.save(folder, Overwrite::Replace, &|| !is_newest())?;
     }
@@ -125,7 +131,7 @@ fn read(job: &Job) -> Result<Recipe> {
         Text::File(file) => {
             let name = file.display().to_string();
             let text = std::fs::read_to_string(file)
-                .with_context(|| format!("{name}: cannot be read; save the recipe there"))?;
+                .map_err(|e| anyhow!("{name}: cannot be read: {e}; save the recipe there"))?;
             (name, text)
         }
         Text::Here(text) => ("the pack's recipe".to_string(), text.clone()),
@@ -157,7 +163,7 @@ mod tests {
     #[test]
     fn a_broken_recipe_is_told_with_its_line() {
         let error = bake(&job("seed = 1\ncolour = 3\n"), &|| true, &|_, _| ()).unwrap_err();
-        let told = format!("{error:#}");
+        let told = told(&error);
         assert!(told.contains("the pack's recipe:2:1"), "{told}");
     }
 
@@ -170,7 +176,7 @@ mod tests {
             ..job(SMALL)
         };
         let error = bake(&job, &|| false, &|_, _| ()).unwrap_err();
-        assert!(format!("{error:#}").contains("cancelled"));
+        assert!(told(&error).contains("cancelled"));
         assert_eq!(folder.path().read_dir().unwrap().count(), 0);
     }
 

@@ -196,7 +196,7 @@ fn no_surface(instance: &wgpu::Instance, reason: wgpu::CreateSurfaceError) -> an
     if adapters.is_empty() {
         return GpuError::NoAdapter.into();
     }
-    anyhow!(reason).context("the window takes no picture; choose another WGPU_BACKEND")
+    anyhow!("the window takes no picture: {reason}; choose another WGPU_BACKEND")
 }
 
 /// Eight bits that the target encodes, so that what is blended over the sky is blended as `welkin-view render` does it; each frame

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Result, anyhow};
 use toml::{Table, Value};
 
 /// The recipe's text with this file as the photograph of the clouds. Comments are lost.
@@ -10,9 +10,9 @@ use toml::{Table, Value};
 /// # Errors
 /// A text that is no recipe.
 pub fn with_photo(text: &str, photo: &Path) -> Result<String> {
-    let mut recipe: Table = text
-        .parse()
-        .context("the recipe is no TOML; correct it first")?;
+    let mut recipe: Table = text.parse().map_err(|e: toml::de::Error| {
+        anyhow!("the recipe is no TOML: {}; correct it first", e.message())
+    })?;
     let file = Value::String(photo.display().to_string());
     put(&mut recipe, &["clouds", "photo", "file"], file);
     Ok(recipe.to_string())

@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use anyhow::{Context, Result};
+use anyhow::{Result, anyhow};
 use welkin_baker::Recipe;
 use welkin_controls::{Blend, Keys, Pilot, Preset, Settings};
-use welkin_pack::Pack;
+use welkin_pack::{Pack, shown};
 use welkin_viewer::pass_times::Part;
 use welkin_viewer::spread::Spread;
 
@@ -165,6 +165,7 @@ impl State {
     }
 
     fn push(&mut self, text: String, is_error: bool) {
+        let text = shown(&text).into_owned();
         // The same again is said once, and last.
         self.notices.retain(|notice| notice.text != text);
         self.notices.push(Notice { text, is_error });
@@ -219,15 +220,17 @@ fn usual_pack() -> Result<Pack> {
 /// With the file's name.
 pub fn read_settings(file: &Path) -> Result<Settings> {
     let name = file.display();
-    let text = std::fs::read_to_string(file).with_context(|| {
-        format!("{name}: cannot be read; name a file of settings, or save one there first")
+    let text = std::fs::read_to_string(file).map_err(|e| {
+        anyhow!("{name}: cannot be read: {e}; name a file of settings, or save one there first")
     })?;
     Settings::from_toml(&text)
-        .with_context(|| format!("{name}: is no file of settings; correct it there"))
+        .map_err(|e| anyhow!("{name}: is no file of settings: {e}; correct it there"))
 }
 
 #[cfg(test)]
 mod tests {
+    use crate::told::told;
+
     use super::*;
 
     fn state() -> State {
@@ -263,7 +266,7 @@ mod tests {
     fn settings_of_a_file_are_those_that_were_saved() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("sky.toml");
-        let told = |error: anyhow::Error| format!("{error:#}");
+        let told = |error: anyhow::Error| told(&error);
         assert!(told(read_settings(&file).unwrap_err()).contains("sky.toml: cannot be read"));
         std::fs::write(&file, "cover = 2").unwrap();
         let error = told(read_settings(&file).unwrap_err());

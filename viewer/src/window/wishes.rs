@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Result, anyhow};
 use welkin_pack::Overwrite;
 use welkin_viewer::save::write_whole;
 use winit::window::Fullscreen;
@@ -22,8 +22,12 @@ impl App {
         match wish {
             Wish::SaveSettings => {
                 let file = state.files.settings.clone();
-                write_whole(Path::new(&file), state.settings.to_toml().as_bytes()).with_context(
-                    || format!("{file}: cannot be written; choose another place for the settings"),
+                write_whole(Path::new(&file), state.settings.to_toml().as_bytes()).map_err(
+                    |e| {
+                        anyhow!(
+                            "{file}: cannot be written: {e}; choose another place for the settings"
+                        )
+                    },
                 )?;
                 return Ok(Some(format!("{file}: settings saved")));
             }

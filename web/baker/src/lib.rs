@@ -23,7 +23,8 @@ pub fn built_in_photo() -> String {
 /// Bakes a recipe, in TOML, with its seed or another: a map of the pack's file names to `Uint8Array`s, byte for byte those
 /// that the program `welkin` writes.
 ///
-/// `inputs` is a map of the files that the recipe names, by those names. `progress(step, done, total)` is called before each step.
+/// `inputs` is a map of the files that the recipe names, by those names. `progress(step, done, total, notice)` is called before each step; and
+/// with a text for `notice` where the bake has something to tell of the step.
 ///
 /// # Errors
 /// Those of the recipe and of the bake.

@@ -15,10 +15,17 @@ pub(crate) fn told_to(function: js_sys::Function) -> impl Fn(Progress) -> Contro
     TOLD.with_borrow_mut(|told| *told = Some(function));
     |progress| {
         TOLD.with_borrow(|told| {
-            let Progress { step, done, total } = progress;
+            let Progress {
+                step,
+                done,
+                total,
+                notice,
+            } = progress;
+            let notice = notice.map_or(JsValue::UNDEFINED, |notice| notice.to_string().into());
+            let all = js_sys::Array::of4(&step.into(), &done.into(), &total.into(), &notice);
             if let Some(told) = told {
                 // What it throws is its own matter.
-                drop(told.call3(&JsValue::NULL, &step.into(), &done.into(), &total.into()));
+                drop(told.apply(&JsValue::NULL, &all));
             }
         });
         ControlFlow::Continue(())

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 use welkin_pack::field::{Cloud, CloudKind};
-use welkin_pack::{Field, Pack};
+use welkin_pack::{Field, Pack, shown};
 
 /// The clouds of one kind.
 struct Kind<'a> {
@@ -67,7 +67,7 @@ pub(super) fn table(pack: &Pack) -> Result<String, std::fmt::Error> {
     let (Some(field), Some(entry)) = (pack.field(), &pack.manifest().field) else {
         return Ok(text);
     };
-    let (sections, bytes, file) = (field.sections, entry.file_bytes, &entry.file);
+    let (sections, bytes, file) = (field.sections, entry.file_bytes, shown(&entry.file));
     writeln!(
         text,
         "\nfield  {sections}x{sections} sections, {bytes} bytes in {file}"

@@ -213,6 +213,159 @@ fn files_that_are_no_models_are_refused() {
 }
 
 #[test]
+fn indices_of_what_is_not_there_are_refused() {
+    let missing = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]}"#;
+    let error = boxes(missing.as_bytes(), "m.gltf").unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "m.gltf: glTF is naming accessor 0 of 0, expected a whole glTF 2.0 file without required extensions; export it again"
+    );
+    // Every index of a document, made to name what is not there.
+    let sound = json!({
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"children": [1], "camera": 0, "skin": 0}, {"mesh": 0, "scale": [300, 100, 200]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 1.0, "znear": 1.0}}],
+        "skins": [{"joints": [1], "skeleton": 0, "inverseBindMatrices": 0}],
+        "animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "scale"}}],
+            "samplers": [{"input": 0, "output": 0}]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 0}, "indices": 0, "material": 0,
+            "targets": [{"POSITION": 0}]}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3",
+            "min": [-1.0, -1.0, -1.0], "max": [1.0, 1.0, 1.0],
+            "sparse": {"count": 1, "indices": {"bufferView": 0, "componentType": 5125}, "values": {"bufferView": 0}}}],
+        "materials": [{"normalTexture": {"index": 0}}],
+        "textures": [{"source": 0, "sampler": 0}],
+        "images": [{"bufferView": 0, "mimeType": "image/png"}],
+        "samplers": [{}],
+        "bufferViews": [{"buffer": 0, "byteLength": 96}],
+        "buffers": [{"byteLength": 96, "uri": "cube.bin"}],
+    });
+    assert_eq!(read(&sound).unwrap().len(), 1);
+    let indices = [
+        "/scene",
+        "/scenes/0/nodes/0",
+        "/nodes/0/children/0",
+        "/nodes/0/camera",
+        "/nodes/0/skin",
+        "/nodes/1/mesh",
+        "/skins/0/joints/0",
+        "/skins/0/skeleton",
+        "/skins/0/inverseBindMatrices",
+        "/animations/0/channels/0/sampler",
+        "/animations/0/channels/0/target/node",
+        "/animations/0/samplers/0/input",
+        "/animations/0/samplers/0/output",
+        "/meshes/0/primitives/0/attributes/POSITION",
+        "/meshes/0/primitives/0/attributes/NORMAL",
+        "/meshes/0/primitives/0/indices",
+        "/meshes/0/primitives/0/material",
+        "/meshes/0/primitives/0/targets/0/POSITION",
+        "/accessors/0/bufferView",
+        "/accessors/0/sparse/indices/bufferView",
+        "/accessors/0/sparse/values/bufferView",
+        "/materials/0/normalTexture/index",
+        "/textures/0/source",
+        "/textures/0/sampler",
+        "/images/0/bufferView",
+        "/bufferViews/0/buffer",
+    ];
+    for place in indices {
+        for index in [
+            json!(1),
+            json!(7),
+            json!(u32::MAX),
+            json!(u64::MAX),
+            json!(-1),
+            json!(0.5),
+            json!("0"),
+            json!(null),
+        ] {
+            let mut wrong = sound.clone();
+            *wrong.pointer_mut(place).unwrap() = index.clone();
+            // Some may be left out, or are there: whatever comes, it is no panic.
+            let found = read(&wrong);
+            if index == json!(7) {
+                // The library does not follow the indices of an animation, and nor does a box.
+                assert!(
+                    found.is_err() || place.starts_with("/animations"),
+                    "{place} {index}"
+                );
+            }
+        }
+    }
+    // Everything left out or of another kind, one thing at a time.
+    for place in places(&sound) {
+        for other in [
+            json!(null),
+            json!([]),
+            json!({}),
+            json!(0),
+            json!(-1),
+            json!(1e300),
+            json!("x"),
+            json!(u64::MAX),
+        ] {
+            let mut wrong = sound.clone();
+            *wrong.pointer_mut(&place).unwrap() = other;
+            drop(read(&wrong));
+        }
+    }
+}
+
+/// Where every value of a document is.
+fn places(value: &Value) -> Vec<String> {
+    let below = |key: String, value: &Value| {
+        let mut found = vec![format!("/{key}")];
+        found.extend(
+            places(value)
+                .into_iter()
+                .map(|place| format!("/{key}{place}")),
+        );
+        found
+    };
+    match value {
+        Value::Object(map) => map.iter().flat_map(|(k, v)| below(k.clone(), v)).collect(),
+        Value::Array(list) => list
+            .iter()
+            .enumerate()
+            .flat_map(|(i, v)| below(i.to_string(), v))
+            .collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Values that are short to write and long to keep.
+#[test]
+fn more_values_than_any_boxes_need_are_refused_before_they_are_read() {
+    let many = vec![json!({}); MAX_VALUES];
+    let mut document = with_extras(json!({}));
+    document["materials"] = json!(many);
+    let text = document.to_string();
+    let told = |bytes: &[u8]| boxes(bytes, "m").unwrap_err().to_string();
+    assert!(told(text.as_bytes()).contains("expected at most 262144; export the boxes alone"));
+    let mut binary = b"glTF\x02\0\0\0".to_vec();
+    binary.extend((20 + text.len() as u32).to_le_bytes());
+    binary.extend((text.len() as u32).to_le_bytes());
+    binary.extend(b"JSON");
+    binary.extend(text.bytes());
+    assert!(told(&binary).contains("expected at most 262144"));
+}
+
+#[test]
+fn the_words_of_a_model_stay_on_their_line() {
+    let node = model(
+        json!([{"name": "a\u{1b}[2J\nb", "mesh": 0, "scale": [9, 9, 9], "extras": {"sprites": 0}}]),
+    );
+    let error = refused(&node);
+    assert!(
+        error.contains(r#"node "a\u{1b}[2J\nb": sprites is 0"#),
+        "{error}"
+    );
+}
+
+#[test]
 fn nodes_within_themselves_do_not_go_on_for_ever() {
     let ring = model(json!([{"children": [1]}, {"children": [0]}]));
     assert!(refused(&ring).contains("none within itself"));

@@ -35,6 +35,22 @@ fn a_skybox_with_a_face_mirrored_or_turned_is_warned_of() {
     }
 }
 
+#[test]
+fn a_skybox_whose_sun_was_cut_is_warned_of() {
+    for (value, told) in [(65_472.0, false), (65_504.0, true)] {
+        let sun = with(Role::Skybox, |image| image.texel_mut(7, 7)[1] = value);
+        let report = check_pack(&sun);
+        let mut warned: Vec<_> = report.problems().map(|f| f.rule).collect();
+        warned.dedup();
+        assert!(report.is_sound(), "{value}: {warned:?}");
+        if told {
+            assert_eq!(warned, ["skybox-clip"]);
+        } else {
+            assert!(warned.is_empty(), "{value}: {warned:?}");
+        }
+    }
+}
+
 /// A texel in the dark whose averages are less than the least half float.
 #[test]
 fn a_nearly_black_face_is_no_error() {

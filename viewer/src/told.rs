@@ -1,0 +1,57 @@
+//! Errors as one line for a person.
+
+use std::borrow::Cow;
+
+use welkin_pack::shown;
+
+/// The error and its causes, each of them once: many a message has its cause in it already. Quoted as texts of files are.
+pub fn told(error: &anyhow::Error) -> String {
+    let mut text = error.to_string();
+    for cause in error.chain().skip(1).map(ToString::to_string) {
+        if !text.contains(&cause) {
+            text += ": ";
+            text += &cause;
+        }
+    }
+    match shown(&text) {
+        Cow::Borrowed(_) => text,
+        Cow::Owned(quoted) => quoted,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io;
+
+    use anyhow::{Context, anyhow};
+    use welkin_pack::{Pack, PackError};
+
+    use super::*;
+
+    #[test]
+    fn a_cause_that_a_message_has_in_it_is_not_repeated() {
+        let source = io::Error::new(io::ErrorKind::NotFound, "there is none");
+        let file = "sky".to_string();
+        let error = PackError::Write { file, source };
+        assert_eq!(
+            told(&error.into()),
+            "sky: cannot be written: there is none; nothing was changed"
+        );
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("pack.json"), "{}").unwrap();
+        let unreadable = Pack::open(folder.path()).unwrap_err();
+        let text = unreadable.to_string();
+        assert_eq!(told(&unreadable.into()), text);
+    }
+
+    #[test]
+    fn a_cause_that_a_message_leaves_out_follows_it() {
+        let error = Err::<(), _>(anyhow!("it is wet")).context("no fire");
+        assert_eq!(told(&error.unwrap_err()), "no fire: it is wet");
+    }
+
+    #[test]
+    fn the_words_of_a_file_stay_on_their_line() {
+        assert_eq!(told(&anyhow!("a\u{1b}[2J\nb")), r"a\u{1b}[2J\nb");
+    }
+}
