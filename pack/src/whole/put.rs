@@ -85,14 +85,14 @@ pub(super) fn put(folder: &Folder) -> Result<(), WriteError> {
         },
         _ => failed(error),
     };
-    match rename_to_free(new, place) {
+    match move_to_free(new, place) {
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
         done => return done.map_err(failed),
     }
     match look(place, shown, *ours)? {
         // It was there a moment ago.
-        There::Nothing => rename_to_free(new, place).map_err(taken),
-        There::Empty => rename_to_empty(new, place).map_err(taken),
+        There::Nothing => move_to_free(new, place).map_err(taken),
+        There::Empty => move_to_empty(new, place).map_err(taken),
         There::Ours => replace(place, temporary, &|old| look(old, shown, *ours).map(|_| ()))
             .map_err(|kept| match kept {
                 Kept::Others(error) => error,
@@ -160,7 +160,7 @@ pub(super) fn replace_in_two_steps(
     done
 }
 
-/// An overlay file system renames no folder of a lower layer. So the files of the old folder are copied, then removed one by one, and the new
+/// An overlay file system renames no folder of a lower layer (Linux, Documentation/filesystems/overlayfs.rst, "Renaming directories"). So the files of the old folder are copied, then removed one by one, and the new
 /// folder takes the place of the empty one. A failure puts them back; a run that is killed in between leaves the copy, which the next run
 /// tells of.
 pub(super) fn replace_by_copying(
@@ -179,12 +179,12 @@ pub(super) fn replace_by_copying(
         names.push(name);
     }
     verify(&copy).map_err(Kept::Others)?;
-    fs::rename(&copy, &old)?;
+    move_to_free(&copy, &old)?;
     let mut removed = names.iter().map(|name| fs::remove_file(place.join(name)));
     // What has come into the folder meanwhile makes the last step fail.
     let done = removed
         .try_for_each(|removed| removed)
-        .and_then(|()| rename_to_empty(temporary.new_path(), place));
+        .and_then(|()| move_to_empty(temporary.new_path(), place));
     if done.is_err() {
         for name in names.iter().filter(|name| !place.join(name).exists()) {
             fs::rename(old.join(name), place.join(name))?;
@@ -216,12 +216,51 @@ fn rename_if_free(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)
 }
 
-/// Renames a folder over an empty one, and over no other.
-fn rename_to_empty(from: &Path, to: &Path) -> io::Result<()> {
+/// Renames a folder to a name that must be free. Some overlays rename no folder at all: there its files are moved into a new one.
+fn move_to_free(from: &Path, to: &Path) -> io::Result<()> {
+    match rename_to_free(from, to) {
+        Err(error) if error.kind() == io::ErrorKind::CrossesDevices => {
+            fs::create_dir(to)?;
+            move_files(from, to).inspect_err(|_| drop(fs::remove_dir(to)))
+        }
+        done => done,
+    }
+}
+
+/// Puts a folder in the place of an empty one, and of no other.
+fn move_to_empty(from: &Path, to: &Path) -> io::Result<()> {
     // Unix does it in one step.
     #[cfg(not(unix))]
     fs::remove_dir(to)?;
-    fs::rename(from, to)
+    match fs::rename(from, to) {
+        Err(error) if error.kind() == io::ErrorKind::CrossesDevices => {
+            if fs::read_dir(to)?.next().is_some() {
+                return Err(io::ErrorKind::DirectoryNotEmpty.into());
+            }
+            move_files(from, to)
+        }
+        done => done,
+    }
+}
+
+/// Moves the files of a folder into another, all or none, and removes the folder.
+pub(super) fn move_files(from: &Path, to: &Path) -> io::Result<()> {
+    let mut moved = Vec::new();
+    let mut move_all = || -> io::Result<()> {
+        for entry in fs::read_dir(from)? {
+            let name = entry?.file_name();
+            rename_to_free(&from.join(&name), &to.join(&name))?;
+            moved.push(name);
+        }
+        fs::remove_dir(from)
+    };
+    let done = move_all();
+    if done.is_err() {
+        for name in &moved {
+            fs::rename(to.join(name), from.join(name))?;
+        }
+    }
+    done
 }
 
 /// Exchanges two folders in one step.

@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use super::put::{replace_by_copying, replace_in_two_steps};
+use super::put::{move_files, replace_by_copying, replace_in_two_steps};
 use super::*;
 
 fn ours(name: &str) -> bool {
@@ -251,6 +251,32 @@ fn a_copy_that_cannot_take_the_place_is_put_back() {
     assert_eq!(names(&place), ["a", "b", "letter"]);
     assert_eq!(text(&place.join("a")), "old");
     assert_eq!(names(desk.path()), ["sky"]);
+}
+
+#[test]
+fn files_are_moved_all_or_none() {
+    let (desk, place) = desk();
+    begun(&place, "new", None).publish().unwrap();
+    let to = desk.path().join("to");
+    fs::create_dir(&to).unwrap();
+    for name in ["a", "b"] {
+        fs::write(to.join(name), "mine").unwrap();
+        assert!(move_files(&place, &to).is_err());
+        assert_eq!(
+            (names(&place), names(&to)),
+            (vec!["a".into(), "b".into()], vec![name.into()])
+        );
+        assert_eq!(
+            [text(&place.join(name)), text(&to.join(name))],
+            ["new", "mine"]
+        );
+        fs::remove_file(to.join(name)).unwrap();
+    }
+    move_files(&place, &to).unwrap();
+    assert_eq!(
+        (names(desk.path()), names(&to)),
+        (vec!["to".into()], vec!["a".into(), "b".into()])
+    );
 }
 
 #[test]
