@@ -232,15 +232,13 @@ fn move_to_empty(from: &Path, to: &Path) -> io::Result<()> {
     // Unix does it in one step.
     #[cfg(not(unix))]
     fs::remove_dir(to)?;
-    match fs::rename(from, to) {
-        Err(error) if error.kind() == io::ErrorKind::CrossesDevices => {
-            if fs::read_dir(to)?.next().is_some() {
-                return Err(io::ErrorKind::DirectoryNotEmpty.into());
-            }
-            move_files(from, to)
+    fs::rename(from, to).or_else(|error| {
+        if fs::read_dir(to)?.next().is_some() {
+            return Err(io::ErrorKind::DirectoryNotEmpty.into());
         }
-        done => done,
-    }
+        // An overlay without extended attributes says EXDEV or EIO.
+        move_files(from, to).map_err(|_| error)
+    })
 }
 
 /// Moves the files of a folder into another, all or none, and removes the folder.
