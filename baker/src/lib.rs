@@ -22,6 +22,7 @@ mod clouds;
 mod error;
 mod fbm;
 mod field;
+mod files;
 mod filter;
 mod flares;
 mod fractal;

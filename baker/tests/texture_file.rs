@@ -29,6 +29,7 @@ fn pack() -> Pack {
         recipe: resolved.recipe,
         inputs: Vec::new(),
         noon_elevation_rad: resolved.sun.noon_elevation_rad,
+        ..PackInfo::default()
     };
     Pack::build(info, sources).unwrap()
 }

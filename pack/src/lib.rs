@@ -20,6 +20,8 @@ pub mod pack;
 #[cfg(test)]
 #[cfg(feature = "write")]
 mod pack_tests;
+#[cfg(all(feature = "write", not(target_family = "wasm")))]
+pub mod place;
 mod read;
 pub mod role;
 #[cfg(all(feature = "write", not(target_family = "wasm")))]
@@ -34,8 +36,12 @@ mod test_pack;
 pub mod texel;
 pub mod texture;
 mod view;
+#[cfg(all(feature = "write", not(target_family = "wasm")))]
+pub mod whole;
 
 pub use error::PackError;
+#[cfg(all(feature = "write", not(target_family = "wasm")))]
+pub use error::WriteError;
 pub use field::Field;
 pub use format::{Format, Shape};
 pub use image::Image;

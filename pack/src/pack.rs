@@ -11,7 +11,7 @@ use crate::{Field, Manifest, PackError, Role, Texture, ktx};
 #[cfg(feature = "write")]
 pub use crate::build::{PackInfo, Source};
 #[cfg(all(feature = "write", not(target_family = "wasm")))]
-pub use crate::save::Overwrite;
+pub use crate::save::{Overwrite, verify_place};
 
 /// A pack: its manifest, its textures and its field of clouds, which agree with each other.
 ///

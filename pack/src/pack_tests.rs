@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use crate::manifest::{MANIFEST_FILE, schema_json};
 use crate::test_field::field;
 use crate::test_pack::{Stream, info, pack, sources, write};
-use crate::{Field, Image, Overwrite, Pack, PackError, Role, Source};
+use crate::{Field, Image, Overwrite, Pack, PackError, Role, Source, WriteError};
 
 fn never() -> bool {
     false
@@ -73,7 +73,10 @@ fn an_existing_pack_is_kept_unless_told_otherwise() {
     let folder = place.path().join("pack");
     pack().save(&folder, Overwrite::Keep, &never).unwrap();
     let error = tiny().save(&folder, Overwrite::Keep, &never).unwrap_err();
-    assert!(matches!(error, PackError::Exists { .. }), "{error}");
+    assert!(
+        matches!(error, PackError::Write(WriteError::Exists { .. })),
+        "{error}"
+    );
     assert_eq!(Pack::open(&folder).unwrap(), pack());
     tiny().save(&folder, Overwrite::Replace, &never).unwrap();
     assert_eq!(Pack::open(&folder).unwrap(), tiny());
@@ -89,13 +92,84 @@ fn a_folder_that_is_not_a_pack_is_never_replaced() {
     let error = pack()
         .save(&folder, Overwrite::Replace, &never)
         .unwrap_err();
-    assert!(matches!(error, PackError::NotAPack { .. }), "{error}");
+    assert!(is_no_pack(&error), "{error}");
     let file = folder.join("chapter");
     assert!(matches!(
         pack().save(&file, Overwrite::Replace, &never),
-        Err(PackError::NotAPack { .. })
+        Err(PackError::Write(WriteError::NotAFolder { .. }))
     ));
     assert_eq!(names(&folder), ["chapter"]);
+}
+
+fn is_no_pack(error: &PackError) -> bool {
+    matches!(error, PackError::Write(WriteError::NotAPack { .. }))
+}
+
+#[test]
+fn a_manifest_of_something_else_makes_no_pack() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path().join("app");
+    fs::create_dir(&folder).unwrap();
+    for text in [
+        "",
+        "{}",
+        "[1]",
+        "{\"kind\": \"web-app\"}",
+        "{\"kind\": \"welkin-pack\"}",
+    ] {
+        fs::write(folder.join(MANIFEST_FILE), text).unwrap();
+        let error = pack()
+            .save(&folder, Overwrite::Replace, &never)
+            .unwrap_err();
+        assert!(is_no_pack(&error), "{text}: {error}");
+        assert_eq!(
+            fs::read(folder.join(MANIFEST_FILE)).unwrap(),
+            text.as_bytes()
+        );
+    }
+    // A pack of another version is one, damaged textures or not.
+    let older = "{\"kind\": \"welkin-pack\", \"version\": 3, \"roles\": []}";
+    fs::write(folder.join(MANIFEST_FILE), older).unwrap();
+    fs::write(folder.join("clouds.ktx2"), "damaged").unwrap();
+    pack().save(&folder, Overwrite::Replace, &never).unwrap();
+    assert_eq!(Pack::open(&folder).unwrap(), pack());
+}
+
+#[test]
+fn a_pack_with_something_else_in_it_is_kept_and_that_is_named() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path().join("pack");
+    tiny().save(&folder, Overwrite::Keep, &never).unwrap();
+    fs::write(folder.join("recipe.toml"), "mine").unwrap();
+    fs::create_dir(folder.join("inner")).unwrap();
+    let before = names(&folder);
+    let error = pack()
+        .save(&folder, Overwrite::Replace, &never)
+        .unwrap_err();
+    assert!(
+        matches!(&error, PackError::Write(WriteError::NotOurs { found, .. }) if found == "inner, recipe.toml"),
+        "{error}"
+    );
+    assert_eq!(
+        (names(&folder), names(place.path())),
+        (before, vec!["pack".to_string()])
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_a_pack_stays_and_the_pack_is_replaced() {
+    let place = tempfile::tempdir().unwrap();
+    let [real, link] = ["real/pack", "link"].map(|name| place.path().join(name));
+    std::os::unix::fs::symlink("real/pack", &link).unwrap();
+    // At first it leads nowhere.
+    tiny().save(&link, Overwrite::Keep, &never).unwrap();
+    assert_eq!(Pack::open(&real).unwrap(), tiny());
+    pack().save(&link, Overwrite::Replace, &never).unwrap();
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(Pack::open(&real).unwrap(), pack());
+    assert_eq!(names(place.path()), ["link", "real"]);
+    assert_eq!(names(real.parent().unwrap()), ["pack"]);
 }
 
 #[test]
@@ -105,7 +179,10 @@ fn a_pack_that_cannot_be_written_leaves_nothing() {
     let error = pack()
         .save(place.path().join("file/pack"), Overwrite::Keep, &never)
         .unwrap_err();
-    assert!(matches!(error, PackError::Write { .. }), "{error}");
+    assert!(
+        matches!(&error, PackError::Write(WriteError::Failed { file, .. }) if file.ends_with("file/pack")),
+        "{error}"
+    );
     assert_eq!(names(place.path()), ["file"]);
 }
 
@@ -118,7 +195,10 @@ fn cancelling_leaves_nothing_not_even_new_folders() {
         let error = pack()
             .save(place.path().join("new/pack"), Overwrite::Keep, &cancelled)
             .unwrap_err();
-        assert!(matches!(error, PackError::Cancelled), "{error}");
+        assert!(
+            matches!(error, PackError::Write(WriteError::Cancelled)),
+            "{error}"
+        );
         assert!(names(place.path()).is_empty());
     }
 }

@@ -1,175 +1,123 @@
 //! Saves a pack: it appears whole or not at all.
 
 use std::fs;
-use std::io::{self, Write};
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 
-use crate::manifest::MANIFEST_FILE;
-use crate::{Pack, PackError};
+use crate::error::WriteError;
+use crate::limits::MAX_MANIFEST_BYTES;
+use crate::manifest::{FieldEntry, MANIFEST_FILE};
+use crate::read::in_folder;
+use crate::whole::{Folder, Leftover, others_in, verify_folder};
+use crate::{Manifest, Pack, PackError, Role, place};
 
 /// What happens to a pack that is already there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overwrite {
     /// It is kept, and saving fails.
     Keep,
-    /// It is replaced in one step. A folder that is not a pack is kept all the same.
+    /// It is replaced in one step. A folder that is not a pack, or has anything else in it, is kept all the same.
     Replace,
 }
 
 impl Pack {
-    /// Saves the pack as a folder.
+    /// Saves the pack as a folder, and tells what could not be removed beside it.
     ///
     /// The files are written to a temporary folder beside it, brought to the disk, read back and
-    /// compared; then the folder is renamed. On Linux a pack that is replaced is exchanged in one step;
-    /// elsewhere there is a moment between two renames. `cancelled` is asked between steps.
+    /// compared; then the folder is renamed, or exchanged for the old one. A link to a pack stays, and the pack at its end is replaced.
+    /// `cancelled` is asked between steps.
     ///
     /// # Errors
-    /// [`PackError::Exists`], [`PackError::NotAPack`], [`PackError::Write`], [`PackError::Cancelled`]; nothing is
-    /// changed then, and the temporary folder is removed.
+    /// [`PackError::Write`] with every case of [`WriteError`]; nothing is changed then, and the temporary folder is removed.
     pub fn save(
         &self,
         folder: impl AsRef<Path>,
         overwrite: Overwrite,
         cancelled: &dyn Fn() -> bool,
-    ) -> Result<(), PackError> {
+    ) -> Result<Vec<Leftover>, PackError> {
         let folder = folder.as_ref();
-        let name = folder.display().to_string();
-        let failed = |source: io::Error| PackError::Write {
-            file: name.clone(),
-            source,
-        };
         verify_place(folder, overwrite)?;
-        let parent = match folder.parent() {
-            Some(parent) if parent != Path::new("") => parent,
-            _ => Path::new("."),
-        };
-        let made = make_folders(parent).map_err(failed)?;
-        let written = self.write_beside(parent, cancelled).and_then(|temporary| {
-            put_in_place(temporary.path(), folder, overwrite).map_err(failed)
-        });
+        let place = place::output(folder)?.path();
+        let parent = place.parent().unwrap_or(&place);
+        let made = make_folders(parent).map_err(|reason| WriteError::failed(folder, reason))?;
+        let written = self.write(folder, overwrite, cancelled);
         if written.is_err() {
             // Deepest first; a folder that someone else has used meanwhile is not empty and stays.
             made.iter()
                 .rev()
                 .for_each(|folder| drop(fs::remove_dir(folder)));
         }
-        written
+        Ok(written?)
     }
 
-    fn write_beside(
+    fn write(
         &self,
-        parent: &Path,
+        folder: &Path,
+        overwrite: Overwrite,
         cancelled: &dyn Fn() -> bool,
-    ) -> Result<tempfile::TempDir, PackError> {
-        let failed = |path: &Path, source| PackError::Write {
-            file: path.display().to_string(),
-            source,
-        };
-        let temporary = temporary_folder(parent).map_err(|e| failed(parent, e))?;
-        for (name, bytes) in &self.files {
+    ) -> Result<Vec<Leftover>, WriteError> {
+        let proceed = || {
             if cancelled() {
-                return Err(PackError::Cancelled);
+                Err(WriteError::Cancelled)
+            } else {
+                Ok(())
             }
-            let path = temporary.path().join(name);
-            write_file(&path, bytes).map_err(|e| failed(&path, e))?;
+        };
+        let new = Folder::begin(folder, ours(overwrite))?;
+        for (name, bytes) in &self.files {
+            proceed()?;
+            new.add(name, bytes)?;
         }
-        let read_back = Pack::open(temporary.path())?;
-        if read_back != *self {
-            let path = temporary.path().display().to_string();
-            return Err(PackError::value(
-                &path,
-                "files",
-                "other bytes",
-                "the bytes that were written",
-            ));
-        }
-        if cancelled() {
-            return Err(PackError::Cancelled);
-        }
-        Ok(temporary)
+        proceed()?;
+        new.publish()
     }
 }
 
-fn verify_place(folder: &Path, overwrite: Overwrite) -> Result<(), PackError> {
-    let file = folder.display().to_string();
-    let Ok(metadata) = fs::symlink_metadata(folder) else {
-        return Ok(());
-    };
-    if metadata.is_dir() && fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none()) {
-        return Ok(());
+/// That a pack may be saved at a place: there is none, an empty folder, or, with [`Overwrite::Replace`], a pack and nothing else.
+///
+/// # Errors
+/// [`WriteError::NotAPack`], and those of [`verify_folder`].
+pub fn verify_place(folder: &Path, overwrite: Overwrite) -> Result<(), WriteError> {
+    let ours = ours(overwrite);
+    if ours.is_some() && folder.is_dir() && !others_in(folder, |_| false)?.is_empty() {
+        verify_manifest(folder).map_err(|reason| WriteError::NotAPack {
+            file: folder.display().to_string(),
+            reason,
+        })?;
     }
+    verify_folder(folder, ours)
+}
+
+fn ours(overwrite: Overwrite) -> Option<fn(&str) -> bool> {
     match overwrite {
-        Overwrite::Keep => Err(PackError::Exists { file }),
-        Overwrite::Replace if metadata.is_dir() && folder.join(MANIFEST_FILE).is_file() => Ok(()),
-        Overwrite::Replace => Err(PackError::NotAPack { file }),
+        Overwrite::Keep => None,
+        Overwrite::Replace => Some(is_pack_file),
+    }
+}
+
+/// Whether a file has a name that packs give.
+fn is_pack_file(name: &str) -> bool {
+    [MANIFEST_FILE, FieldEntry::FILE].contains(&name) || Role::ALL.iter().any(|r| name == r.file())
+}
+
+/// A pack is known by its manifest, that of another version by its kind and version. Damaged textures do not matter here.
+fn verify_manifest(folder: &Path) -> Result<(), String> {
+    if !folder.join(MANIFEST_FILE).is_file() {
+        return Err(format!("it has no {MANIFEST_FILE}"));
+    }
+    let parsed = in_folder(folder, MANIFEST_FILE, MAX_MANIFEST_BYTES)
+        .and_then(|bytes| Manifest::parse(MANIFEST_FILE, &bytes));
+    match parsed {
+        Ok(_) | Err(PackError::Version { .. }) => Ok(()),
+        Err(error) => Err(error.to_string()),
     }
 }
 
 /// Makes a folder and those above it; gives the ones that were not there, outermost first.
-fn make_folders(folder: &Path) -> io::Result<Vec<std::path::PathBuf>> {
-    let mut missing: Vec<_> = folder
-        .ancestors()
-        .take_while(|f| *f != Path::new("") && !f.exists())
-        .map(Path::to_path_buf)
-        .collect();
+fn make_folders(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let missing = folder.ancestors().take_while(|f| !f.exists());
+    let mut missing: Vec<_> = missing.map(Path::to_path_buf).collect();
     missing.reverse();
     fs::create_dir_all(folder)?;
     Ok(missing)
-}
-
-fn write_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file = fs::File::create_new(path)?;
-    file.write_all(bytes)?;
-    file.sync_all()
-}
-
-/// A temporary folder beside the pack's place. It is as open as any new folder, since it becomes the pack.
-fn temporary_folder(parent: &Path) -> io::Result<tempfile::TempDir> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".welkin-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // The system takes away what the user's mask says.
-        builder.permissions(fs::Permissions::from_mode(0o777));
-    }
-    builder.tempdir_in(parent)
-}
-
-#[cfg(target_os = "linux")]
-fn put_in_place(temporary: &Path, folder: &Path, overwrite: Overwrite) -> io::Result<()> {
-    use rustix::fs::{CWD, RenameFlags, renameat_with};
-    if overwrite == Overwrite::Replace && folder.join(MANIFEST_FILE).is_file() {
-        // The old pack is now the temporary folder, and goes away with it.
-        let swapped = renameat_with(CWD, temporary, CWD, folder, RenameFlags::EXCHANGE);
-        return match swapped {
-            Err(rustix::io::Errno::INVAL | rustix::io::Errno::NOSYS) => {
-                swap_in_two_steps(temporary, folder)
-            }
-            other => Ok(other?),
-        };
-    }
-    // Renaming onto an empty folder replaces it, and onto any other fails.
-    fs::rename(temporary, folder)
-}
-
-#[cfg(not(target_os = "linux"))]
-fn put_in_place(temporary: &Path, folder: &Path, overwrite: Overwrite) -> io::Result<()> {
-    if overwrite == Overwrite::Replace && folder.exists() {
-        return swap_in_two_steps(temporary, folder);
-    }
-    if folder.exists() {
-        fs::remove_dir(folder)?;
-    }
-    fs::rename(temporary, folder)
-}
-
-fn swap_in_two_steps(temporary: &Path, folder: &Path) -> io::Result<()> {
-    let old = temporary.with_extension("old");
-    fs::rename(folder, &old)?;
-    if let Err(error) = fs::rename(temporary, folder) {
-        fs::rename(&old, folder)?;
-        return Err(error);
-    }
-    fs::remove_dir_all(&old)
 }

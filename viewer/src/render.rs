@@ -3,7 +3,12 @@
 mod artist;
 mod sequence;
 
+use std::io::Write;
+use std::path::Path;
+
 use anyhow::{Error, Result, ensure};
+use welkin_pack::place::verify_apart;
+use welkin_pack::whole::{Leftover, sweep_beside};
 use welkin_pack::{Pack, Role};
 use welkin_runtime::{Method, Oktas, SkyError, SkyParams};
 use welkin_viewer::gpu::Gpu;
@@ -19,6 +24,9 @@ const MOST_OFF_OKTAS: f32 = 0.5;
 pub fn run(args: &RenderArgs) -> Result<()> {
     // The name is checked before anything slow begins.
     let shot = args.shot().map_err(Error::msg)?;
+    let outputs = [Some(&args.output), args.lit.shadow.as_ref()];
+    let outputs: Vec<&Path> = outputs.into_iter().flatten().map(AsRef::as_ref).collect();
+    verify_apart(&[&args.pack], &outputs)?;
     let pack = Pack::open(&args.pack)?;
     ensure!(
         args.light.skybox.is_none() || pack.texture(Role::Skybox).is_some(),
@@ -37,6 +45,7 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     }
     let gpu = Gpu::open()?;
     let sequence = args.export.sequence(args.at);
+    tell(&sweep_beside(&args.output));
     match (shot, sequence) {
         (Shot::Frame(format), None) => {
             let drawn = render(&gpu, &pack, format.target(), &view)?;
@@ -56,6 +65,13 @@ pub fn run(args: &RenderArgs) -> Result<()> {
                 }
             }
         }
+    }
+}
+
+/// Tells what earlier runs have left beside an output.
+fn tell(leftovers: &[Leftover]) {
+    for leftover in leftovers {
+        writeln!(std::io::stderr(), "{leftover}").ok();
     }
 }
 

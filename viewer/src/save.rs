@@ -1,17 +1,14 @@
-//! Frames as picture files. A file appears whole or not at all: it is made in memory, written beside
-//! its place and renamed into it, so an older file of that name stays until the new one is complete.
+//! Frames as picture files. A file appears whole or not at all: it is made in memory and written by [`welkin_pack::whole`].
 
 mod encode;
-mod folder;
 
-use std::io::{self, Write};
 use std::path::Path;
 
 use image::ExtendedColorType;
+use welkin_pack::WriteError;
+use welkin_pack::whole::write_file;
 
 use crate::frame::{Frame, Pixels, Target};
-
-pub use folder::{TEMPORARY, save_folder, verify_folder};
 
 /// Why a picture could not be saved. Nothing was changed then.
 #[derive(Debug, thiserror::Error)]
@@ -45,30 +42,9 @@ pub enum SaveError {
         /// The encoder's reason.
         reason: String,
     },
-    /// There is a folder, with something in it that is none of the files that would be written.
-    #[error(
-        "{file}: is not replaced, since {found} in it is none of the files that would be written; choose another folder, or move it away"
-    )]
-    NotOurs {
-        /// The folder.
-        file: String,
-        /// What is in it.
-        found: String,
-    },
-    /// There is something that is not a folder.
-    #[error("{file}: is there and is not a folder; choose another name")]
-    NotAFolder {
-        /// The place.
-        file: String,
-    },
     /// The file could not be written.
-    #[error("{file}: cannot be written: {source}; choose another place, or make room there")]
-    Write {
-        /// The file.
-        file: String,
-        /// The operating system's reason.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    Write(#[from] WriteError),
 }
 
 /// A format of a picture.
@@ -126,13 +102,13 @@ pub fn target_for(path: &Path) -> Result<Target, SaveError> {
     Format::of(path).map(Format::target)
 }
 
-/// Saves a frame in the format that the file's name says.
+/// Saves a frame in the format that the file's name says. A file of that name is replaced.
 ///
 /// # Errors
 /// See [`SaveError`].
 pub fn save(path: &Path, frame: &Frame) -> Result<(), SaveError> {
     let bytes = encode(&path.display().to_string(), Format::of(path)?, frame)?;
-    save_bytes(path, &bytes)
+    Ok(write_file(path, &bytes, &|| false)?)
 }
 
 /// The bytes of a picture. `file` names it in errors.
@@ -165,33 +141,6 @@ pub fn encode(file: &str, format: Format, frame: &Frame) -> Result<Vec<u8>, Save
         file: file.to_string(),
         reason,
     })
-}
-
-/// Writes a file whole or not at all.
-///
-/// # Errors
-/// [`SaveError::Write`].
-pub fn save_bytes(path: &Path, bytes: &[u8]) -> Result<(), SaveError> {
-    write_whole(path, bytes).map_err(|source| SaveError::Write {
-        file: path.display().to_string(),
-        source,
-    })
-}
-
-/// Writes a file that is there whole or, if that fails, as it was before.
-///
-/// # Errors
-/// The operating system's.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    if path.exists() && !path.is_file() {
-        // A device or a folder would be renamed over.
-        return Err(io::Error::other("there is something that is not a file"));
-    }
-    let mut file = folder::temporary_name(0o666).tempfile_in(folder::parent_of(path))?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|e| e.error)?;
-    Ok(())
 }
 
 #[cfg(test)]

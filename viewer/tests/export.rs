@@ -198,6 +198,9 @@ fn a_folder_of_faces_is_replaced_and_another_is_not() {
         made.keys().collect::<Vec<_>>(),
         ["nx.png", "ny.png", "nz.png", "px.png", "py.png", "pz.png"]
     );
+    fs::write(place.join(".DS_Store"), "").unwrap();
+    done(render(&place, &png));
+    assert_eq!(files(&place), made);
     fs::write(place.join("thesis.txt"), "years").unwrap();
     failed(
         &run(render(&place, &png)),

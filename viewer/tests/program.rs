@@ -145,3 +145,42 @@ fn without_an_adapter_it_says_what_to_install() {
     command.arg(pack()).env("WGPU_ADAPTER_NAME", "abacus");
     failed(&run(command), 1, &["abacus", "WGPU_ADAPTER_NAME"]);
 }
+
+#[test]
+fn nothing_is_written_into_the_pack_that_is_drawn_or_twice_into_one_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let copy = folder.path().join("pack");
+    std::fs::create_dir(&copy).unwrap();
+    let names = |folder: &Path| {
+        let entries = folder.read_dir().unwrap().map(|e| e.unwrap());
+        let mut all: Vec<_> = entries
+            .map(|e| (e.file_name(), e.metadata().unwrap().len()))
+            .collect();
+        all.sort();
+        all
+    };
+    for (name, _) in names(pack()) {
+        std::fs::copy(pack().join(&name), copy.join(&name)).unwrap();
+    }
+    let before = names(&copy);
+    let attempt = |args: &[&str]| {
+        let mut command = view(&["render", "pack"]);
+        command.args(args).current_dir(folder.path());
+        run(command)
+    };
+    for args in [
+        &["-o", "pack/clouds.ktx2", "--cubemap", "16"][..],
+        &["-o", "pack/faces", "--cubemap", "16"],
+        &["-o", "pack", "--cubemap", "16"],
+        &["-o", "./pack/../pack/frame.png"],
+        &["-o", "pack", "--frames", "2"],
+        &["-o", ".", "--frames", "2"],
+        &["-o", "a.png", "--method", "lit", "--shadow", "pack/s.png"],
+    ] {
+        failed(&attempt(args), 1, &["which is read"]);
+    }
+    let shadow = ["-o", "a.png", "--method", "lit", "--shadow", "./a.png"];
+    failed(&attempt(&shadow), 1, &["./a.png", "named twice"]);
+    assert_eq!(names(&copy), before);
+    assert_eq!(names(folder.path()).len(), 1);
+}

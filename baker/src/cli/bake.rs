@@ -1,26 +1,21 @@
 //! `welkin bake`: a recipe becomes a pack, and on request pictures of its channels beside it.
 
-use std::fs::File;
-use std::io::Read;
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, anyhow};
 use indicatif::{ProgressBar, ProgressStyle};
-use welkin_baker::{FieldBound, FieldSettings, Notice, Progress, Recipe, Resolved};
-use welkin_pack::pack::Overwrite;
-use welkin_pack::{Pack, Role};
+use welkin_baker::{BakeError, FieldBound, FieldSettings, Notice, Progress, Recipe, Resolved};
+use welkin_pack::pack::{Overwrite, verify_place};
+use welkin_pack::place::verify_apart;
+use welkin_pack::whole::{Folder, IsOurs};
+use welkin_pack::{Pack, PackError, Role, WriteError};
 
 use super::BakeArgs;
 use super::side::{self, Kind};
-use super::whole::Folder;
-use super::{interrupt, output};
-
-/// A recipe has some dozens of lines; what is larger is something else.
-const MAX_RECIPE_BYTES: u64 = 1 << 20;
+use super::{input, interrupt, output};
 
 pub fn run(args: &BakeArgs) -> Result<()> {
-    verify_places(args)?;
     if let Some(threads) = args.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads.into())
@@ -29,17 +24,19 @@ pub fn run(args: &BakeArgs) -> Result<()> {
     let recipe = args
         .recipe
         .as_deref()
-        .map_or_else(|| Ok(Recipe::default()), read_recipe)?;
+        .map_or_else(|| Ok(Recipe::default()), input::recipe)?;
     let resolved = recipe.resolve(args.seed)?;
-    tell_bound(&resolved);
     // Photographs are named from the recipe's folder.
     let base = args.recipe.as_deref().and_then(Path::parent);
-    let begin = |place: &Path| Folder::begin(place, args.force, side::is_ours);
+    verify_places(args, &resolved, base)?;
+    tell_bound(&resolved);
+    let ours = args.force.then_some(side::is_ours as IsOurs);
+    let begin = |place: &Path| Folder::begin(place, ours).map_err(|e| with_force(args, e));
     let png = args.png.as_deref().map(begin).transpose()?;
     let exr = args.exr.as_deref().map(begin).transpose()?;
 
-    let bake = |on_progress: OnProgress| welkin_baker::bake(&resolved, base, on_progress);
-    let pack = with_progress(&|notice| output::message(&notice.to_string()), bake)?;
+    let tell = |notice: Notice| output::message(&notice.to_string());
+    let pack = unless_interrupted(&resolved, base, tell, welkin_baker::bake)?;
     // A pack that `check` would refuse never appears.
     welkin_baker::verify(&pack)?;
     png.as_ref()
@@ -47,21 +44,54 @@ pub fn run(args: &BakeArgs) -> Result<()> {
     exr.as_ref()
         .map_or(Ok(()), |folder| add_linear(folder, &resolved, base))?;
 
-    let overwrite = if args.force {
+    let saved = pack.save(&args.output, overwrite(args), &interrupt::requested);
+    let mut leftovers = saved.map_err(|error| match error {
+        PackError::Write(error) => with_force(args, error),
+        error => error.into(),
+    })?;
+    let shown = args.output.display();
+    for folder in [png, exr].into_iter().flatten() {
+        let published = folder.publish().map_err(|e| with_force(args, e));
+        leftovers.extend(published.map_err(|e| anyhow!("{e}; the pack {shown} is baked"))?);
+    }
+    output::leftovers(leftovers);
+    let textures = pack.manifest().textures.len();
+    output::message(&format!("{shown}: {textures} textures baked"));
+    Ok(())
+}
+
+fn overwrite(args: &BakeArgs) -> Overwrite {
+    if args.force {
         Overwrite::Replace
     } else {
         Overwrite::Keep
-    };
-    pack.save(&args.output, overwrite, &interrupt::requested)?;
-    for folder in [png, exr].into_iter().flatten() {
-        folder.publish()?;
     }
-    let textures = pack.manifest().textures.len();
-    output::message(&format!(
-        "{}: {textures} textures baked",
-        args.output.display()
-    ));
-    Ok(())
+}
+
+/// Each output is a folder of its own, that is free or may be replaced, and no file that is read lies in one.
+fn verify_places(args: &BakeArgs, resolved: &Resolved, base: Option<&Path>) -> Result<()> {
+    let base = base.unwrap_or(Path::new(""));
+    let named = resolved.files().into_iter().map(|file| base.join(file));
+    let read: Vec<PathBuf> = args.recipe.iter().cloned().chain(named).collect();
+    let read: Vec<&Path> = read.iter().map(PathBuf::as_path).collect();
+    let written = [Some(&args.output), args.png.as_ref(), args.exr.as_ref()];
+    let written: Vec<&Path> = written
+        .into_iter()
+        .flatten()
+        .map(PathBuf::as_path)
+        .collect();
+    verify_apart(&read, &written)?;
+    verify_place(&args.output, overwrite(args)).map_err(|e| with_force(args, e))
+}
+
+/// What is there without --force may be replaced with it.
+fn with_force(args: &BakeArgs, error: WriteError) -> anyhow::Error {
+    match error {
+        WriteError::Exists { .. } if !args.force => {
+            anyhow!("{error}, or replace it with --force")
+        }
+        error => error.into(),
+    }
 }
 
 /// A field larger than usual is said before memory is taken for it.
@@ -79,35 +109,6 @@ fn tell_bound(resolved: &Resolved) {
             "the field may have {sprites} sprites, {boxes} boxes and {clouds} clouds, which take {bytes} bytes of memory at most"
         ));
     }
-}
-
-/// Each of the three is a folder of its own; two in one place would replace each other.
-fn verify_places(args: &BakeArgs) -> Result<()> {
-    let places = [Some(&args.output), args.png.as_ref(), args.exr.as_ref()];
-    let places: Vec<_> = places.into_iter().flatten().collect();
-    for (i, place) in places.iter().enumerate() {
-        if places[..i].contains(place) {
-            bail!(
-                "{}: named twice; give -o, --png and --exr a folder each",
-                place.display()
-            );
-        }
-    }
-    Ok(())
-}
-
-fn read_recipe(path: &Path) -> Result<Recipe> {
-    let name = path.display().to_string();
-    let unreadable = |e| anyhow!("{name}: cannot be read: {e}; expected a recipe in TOML");
-    let mut text = String::new();
-    let file = File::open(path).map_err(unreadable)?;
-    file.take(MAX_RECIPE_BYTES + 1)
-        .read_to_string(&mut text)
-        .map_err(unreadable)?;
-    if text.len() as u64 > MAX_RECIPE_BYTES {
-        bail!("{name}: is larger than {MAX_RECIPE_BYTES} bytes, expected a recipe in TOML");
-    }
-    Ok(Recipe::parse(&name, &text)?)
 }
 
 pub type OnProgress<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
@@ -135,6 +136,25 @@ pub fn with_progress<T>(tell: &(dyn Fn(Notice) + Sync), work: impl FnOnce(OnProg
     done
 }
 
+/// Bakes with a bar. It can be interrupted while a file is read that never ends.
+fn unless_interrupted<T: Send + 'static>(
+    resolved: &Resolved,
+    base: Option<&Path>,
+    tell: fn(Notice),
+    work: Work<T>,
+) -> Result<T> {
+    let (resolved, base) = (resolved.clone(), base.map(Path::to_path_buf));
+    let done = interrupt::unless_requested(move || {
+        with_progress(&tell, |on_progress| {
+            work(&resolved, base.as_deref(), on_progress)
+        })
+    })?;
+    Ok(done?)
+}
+
+/// [`welkin_baker::bake`] or [`welkin_baker::sources`].
+type Work<T> = fn(&Resolved, Option<&Path>, OnProgress) -> Result<T, BakeError>;
+
 fn add_stored(folder: &Folder, pack: &Pack) -> Result<()> {
     for role in Role::ALL {
         if let Some(texture) = pack.texture(role) {
@@ -148,8 +168,7 @@ fn add_stored(folder: &Folder, pack: &Pack) -> Result<()> {
 
 fn add_linear(folder: &Folder, resolved: &Resolved, base: Option<&Path>) -> Result<()> {
     // It makes again what the pack was made from, so there is nothing new to tell.
-    let make = |on_progress: OnProgress| welkin_baker::sources(resolved, base, on_progress);
-    let sources = with_progress(&|_| (), make)?;
+    let sources = unless_interrupted(resolved, base, |_| (), welkin_baker::sources)?;
     for source in &sources {
         for (layer, image) in (0..).zip(&source.images) {
             side::add(folder, source.role, layer, image, Kind::Exr)?;

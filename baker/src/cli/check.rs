@@ -15,7 +15,7 @@ use welkin_pack::{Role, Texture};
 
 use super::CheckArgs;
 use super::page::{self, Page};
-use super::{bake, interrupt, output, whole};
+use super::{bake, file, interrupt, output};
 
 const SOUND: u8 = 0;
 const PROBLEMS: u8 = 1;
@@ -59,7 +59,7 @@ fn run_and_write(args: &CheckArgs) -> Result<Report> {
     };
     if let (Some(html), Some(page)) = (&args.html, page) {
         interrupt::stop_if_requested()?;
-        whole::write_file(html, page.as_bytes())?;
+        file::write(html, page.as_bytes())?;
     }
     output::result(&if args.json {
         report.to_json()
@@ -93,7 +93,7 @@ fn check_pack(args: &CheckArgs) -> Result<Checked> {
 /// Bakes the pack anew and adds what comes of it to the report.
 fn prove(examined: &mut Examined, args: &CheckArgs) -> Result<()> {
     let given = files::given(args)?;
-    let found = bake::with_progress(|on_progress| rebake(examined, &given, on_progress));
+    let found = bake::with_progress(&|_| (), |on_progress| rebake(examined, &given, on_progress));
     match found {
         Ok(findings) => examined.report.findings.extend(findings),
         Err(error @ RebakeError::Missing { .. }) => bail!(

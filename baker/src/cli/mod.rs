@@ -2,9 +2,11 @@
 
 mod bake;
 mod check;
+mod file;
 mod font;
 mod handover;
 mod info;
+mod input;
 mod interrupt;
 mod output;
 mod page;
@@ -14,7 +16,6 @@ mod preview;
 mod sheet;
 mod side;
 mod unpack;
-mod whole;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -68,7 +69,7 @@ struct BakeArgs {
     /// Threads to use, 1 to 1024; the bytes are the same with any number [default: one a core]
     #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true)]
     threads: Option<u16>,
-    /// Replace a pack that is there already, and the folders of --png and --exr
+    /// Replace a pack that is there already, and the folders of --png and --exr; a folder with anything else in it is kept
     #[arg(long)]
     force: bool,
     /// Also write every channel as it is stored: one 8-bit image each, in a new folder
@@ -126,7 +127,7 @@ struct PreviewArgs {
 struct UnpackArgs {
     /// Folder of the pack
     pack: PathBuf,
-    /// Folder to make; it must not be there yet
+    /// Folder to make; one that is there must be empty
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 }

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use anyhow::{Result, anyhow};
 use welkin_pack::shown;
+use welkin_pack::whole::Leftover;
 
 /// Writes a result. A reader that has gone away has seen enough: that is no error.
 pub fn result(text: &str) -> Result<()> {
@@ -24,6 +25,15 @@ pub fn result(text: &str) -> Result<()> {
 /// nobody left to tell.
 pub fn message(text: &str) {
     writeln!(std::io::stderr(), "{}", shown(text)).ok();
+}
+
+/// Tells what lies beside the outputs and could not be removed.
+pub fn leftovers(mut leftovers: Vec<Leftover>) {
+    leftovers.sort();
+    leftovers.dedup();
+    leftovers
+        .iter()
+        .for_each(|leftover| message(&leftover.to_string()));
 }
 
 /// Writes `error: ...` and gives the exit code.

@@ -6,16 +6,17 @@ use welkin_baker::{Recipe, photo_channel, read_photo};
 use welkin_pack::texture::unorm8;
 
 use super::PhotoArgs;
-use super::{interrupt, picture, whole};
+use super::{file, interrupt, picture};
 
 pub fn run(args: &PhotoArgs) -> Result<()> {
+    file::verify_png(&args.output, &args.image)?;
     let name = args.image.display().to_string();
     let settings = Recipe::default().resolve(None)?.clouds.photo;
-    let bytes = read_photo(&args.image)?;
+    let image = args.image.clone();
+    let bytes = interrupt::unless_requested(move || read_photo(&image))??;
     let tile = photo_channel(&bytes, &name, &settings)?;
-    interrupt::stop_if_requested()?;
     let grey: Vec<u8> = tile.texels.iter().copied().map(unorm8).collect();
-    whole::write_file(
+    file::write(
         &args.output,
         &picture::png(tile.width, tile.height, ExtendedColorType::L8, &grey)?,
     )

@@ -10,7 +10,7 @@ use welkin_pack::{Image, Manifest, Pack, Role, Texture};
 
 use super::PreviewArgs;
 use super::sheet::{self, PANEL, Panel, Section};
-use super::{interrupt, picture, whole};
+use super::{file, input, interrupt, picture};
 
 /// Textures that are read texel by texel are shown in part, each texel at least this many pixels large.
 const TEXEL_PIXELS: u32 = 2;
@@ -19,7 +19,8 @@ const TEXEL_PIXELS: u32 = 2;
 const SKY_EXPOSURE: f32 = 1.5;
 
 pub fn run(args: &PreviewArgs) -> Result<()> {
-    let pack = Pack::open(&args.pack)?;
+    file::verify_png(&args.output, &args.pack)?;
+    let pack = input::pack(&args.pack)?;
     let manifest = pack.manifest();
     let sections: Vec<Section> = manifest
         .textures
@@ -38,7 +39,7 @@ pub fn run(args: &PreviewArgs) -> Result<()> {
         ExtendedColorType::Rgb8,
         &sheet.rgb,
     )?;
-    whole::write_file(&args.output, &png)
+    file::write(&args.output, &png)
 }
 
 fn summary(manifest: &Manifest) -> String {

@@ -1,15 +1,13 @@
 //! One grey image a channel, as files `ROLE.CHANNEL.png` and `ROLE.CHANNEL.exr`; in arrays and cubes
 //! `ROLE.LAYER.CHANNEL.png`, where LAYER is a number from 1, or the name of a face or of a kind of cloud.
 
-use std::path::Path;
-
 use anyhow::Result;
 use image::ExtendedColorType;
 use welkin_pack::texture::unorm8;
+use welkin_pack::whole::Folder;
 use welkin_pack::{Image, Role};
 
-use super::picture;
-use super::whole::Folder;
+use super::{interrupt, picture};
 
 /// How a channel is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +38,7 @@ pub fn add(folder: &Folder, role: Role, layer: u32, image: &Image, kind: Kind) -
             }
             Kind::Exr => picture::grey_exr(image.width, image.height, values.collect())?,
         };
+        interrupt::stop_if_requested()?;
         folder.add(&file_name(role, layer, channel.name, kind), &bytes)?;
     }
     Ok(())
@@ -52,18 +51,14 @@ fn file_name(role: Role, layer: u32, channel: &str, kind: Kind) -> String {
 }
 
 /// Whether a file has a name that [`add`] gives.
-pub fn is_ours(path: &Path) -> bool {
-    let Some(name) = path.file_name().and_then(|n| n.to_str()) else {
-        return false;
-    };
+pub fn is_ours(name: &str) -> bool {
     let ours = |role: Role, kind: Kind| {
         (0..role.spec().layers[1]).any(|layer| {
             let mut channels = role.spec().channels.iter();
             channels.any(|c| name == file_name(role, layer, c.name, kind))
         })
     };
-    path.is_file()
-        && Role::ALL
-            .iter()
-            .any(|&role| ours(role, Kind::Png) || ours(role, Kind::Exr))
+    Role::ALL
+        .iter()
+        .any(|&role| ours(role, Kind::Png) || ours(role, Kind::Exr))
 }

@@ -1,15 +1,17 @@
 //! `welkin unpack`: one grey image a channel and layer, from level 0 of every texture.
 
 use anyhow::Result;
-use welkin_pack::{Format, Pack, Role};
+use welkin_pack::place::verify_apart;
+use welkin_pack::whole::Folder;
+use welkin_pack::{Format, Role};
 
-use super::UnpackArgs;
 use super::side::{self, Kind};
-use super::whole::Folder;
+use super::{UnpackArgs, input, output};
 
 pub fn run(args: &UnpackArgs) -> Result<()> {
-    let pack = Pack::open(&args.pack)?;
-    let folder = Folder::begin(&args.output, false, side::is_ours)?;
+    verify_apart(&[&args.pack], &[&args.output])?;
+    let pack = input::pack(&args.pack)?;
+    let folder = Folder::begin(&args.output, None)?;
     for role in Role::ALL {
         let Some(texture) = pack.texture(role) else {
             continue;
@@ -22,5 +24,6 @@ pub fn run(args: &UnpackArgs) -> Result<()> {
             side::add(&folder, role, layer, &texture.image(0, layer), kind)?;
         }
     }
-    folder.publish()
+    output::leftovers(folder.publish()?);
+    Ok(())
 }

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::{Desk, Run, SMALL_RECIPE, contents, default_pack, run, welkin};
 
-/// The commands that write, each with a place to write to.
+/// The commands that write, each with a place to write to, whose name ends in .png where that must be.
 fn writers(desk: &Desk, place: &Path) -> Vec<Command> {
     let recipe = desk.write("small.toml", SMALL_RECIPE);
     let photograph =
@@ -19,7 +19,11 @@ fn writers(desk: &Desk, place: &Path) -> Vec<Command> {
     ];
     let command = |(name, input): (&str, &Path)| {
         let mut command = welkin();
-        command.arg(name).arg(input).arg("-o").arg(place);
+        command.arg(name).arg(input).arg("-o");
+        match name {
+            "preview" | "photo" => command.arg(place.with_extension("png")),
+            _ => command.arg(place),
+        };
         command
     };
     inputs.into_iter().map(command).collect()
@@ -48,16 +52,17 @@ fn a_file_system_without_files_of_ours_is_told_by_name() {
 #[test]
 fn files_are_not_written_over_folders_or_devices() {
     let desk = Desk::new();
-    let folder = desk.path("folder");
+    let (folder, device) = (desk.path("folder.png"), desk.path("device.png"));
     fs::create_dir(&folder).unwrap();
-    for place in [folder.as_path(), Path::new("/dev/null")] {
+    std::os::unix::fs::symlink("/dev/null", &device).unwrap();
+    for place in [&folder, &device] {
         for mut command in writers(&desk, place) {
-            // An empty folder may become a pack, and only that.
-            if command.get_args().any(|arg| arg == "bake") && place == folder {
+            // An empty folder may become a pack or hold channels.
+            let makes_folder = |arg| arg == "bake" || arg == "unpack";
+            if command.get_args().any(makes_folder) && *place == folder {
                 continue;
             }
-            let run = run(&mut command);
-            assert_eq!(run.code, Some(1), "{run:?}");
+            run(&mut command).failed(1, &[".png", "is there and is not a f"]);
         }
     }
     use std::os::unix::fs::FileTypeExt;
@@ -68,7 +73,7 @@ fn files_are_not_written_over_folders_or_devices() {
             .is_char_device()
     );
     assert!(contents(&folder).is_empty());
-    assert_eq!(desk.names(), ["folder", "small.toml"]);
+    assert_eq!(desk.names(), ["device.png", "folder.png", "small.toml"]);
 }
 
 /// Runs a command in a shell that allows files of this many blocks of 512 bytes, as a disk that gets full.
@@ -167,6 +172,15 @@ fn a_full_disk_is_told_and_left_as_it_was() {
         }
         let listing = "\nmine\n";
         assert!(run.stderr.ends_with(listing), "{command:?}: {run:?}");
-        run.failed(1, &["disk/", "cannot be written", "No space left"]);
+        assert!(!run.stderr.contains(".welkin-"), "{run:?}");
+        run.failed(
+            1,
+            &[
+                "disk/out",
+                "cannot be written",
+                "No space left",
+                "make room",
+            ],
+        );
     }
 }

@@ -27,7 +27,7 @@ fn signal_after(child: Child, delay: Duration, signal: &str) -> Run {
 }
 
 /// Its temporary folders for side files show that the bake has begun.
-fn wait_until_begun(desk: &Desk, child: &mut Child) {
+pub fn wait_until_begun(desk: &Desk, child: &mut Child) {
     while !desk.names().iter().any(|name| name.starts_with(".welkin-")) {
         assert!(child.try_wait().unwrap().is_none(), "ended before it began");
         sleep(Duration::from_millis(2));
@@ -93,5 +93,39 @@ fn whenever_the_signal_comes_the_pack_is_whole_or_not_there() {
         }
         assert!(contents(&pack) == whole, "step {step}");
         assert_eq!(desk.names(), ["pack", "small.toml"], "step {step}");
+    }
+}
+
+#[test]
+fn a_pipe_that_gives_nothing_is_left_alone() {
+    let desk = Desk::new();
+    let pipe = desk.path("pipe");
+    let made = Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.unwrap().success());
+    desk.write("photo.toml", "[clouds.photo]\nfile = \"pipe\"\n");
+    std::fs::create_dir(desk.path("p")).unwrap();
+    std::os::unix::fs::symlink(&pipe, desk.path("p/pack.json")).unwrap();
+    let before = desk.names();
+    for args in [
+        &["photo", "pipe", "-o", "tile.png"][..],
+        &["photo", "/dev/stdin", "-o", "tile.png"],
+        &["bake", "pipe", "-o", "new/pack"],
+        &["bake", "photo.toml", "-o", "new/pack", "--png", "png"],
+        &["preview", "p", "-o", "sheet.png"],
+        &["unpack", "p", "-o", "channels"],
+    ] {
+        let mut command = welkin();
+        command.args(args).current_dir(desk.path(""));
+        let mut child = start(command.stdin(Stdio::piped()));
+        // It opens once there is a reader, who then waits for us.
+        let writer = (args[1] != "/dev/stdin").then(|| {
+            let opened = std::fs::File::options().write(true).open(&pipe);
+            opened.unwrap()
+        });
+        let stdin = child.stdin.take();
+        let run = signal_after(child, Duration::from_millis(200), "INT");
+        drop((writer, stdin));
+        assert_eq!(run.code, Some(130), "{args:?}: {run:?}");
+        assert_eq!(desk.names(), before, "{args:?}");
     }
 }

@@ -183,7 +183,7 @@ fn a_pack_that_cannot_be_opened_leaves_no_output() {
             .arg(command)
             .arg(&pack)
             .arg("-o")
-            .arg(desk.path("out")))
+            .arg(desk.path("out.png")))
         .failed(1, &["sun.ktx2"]);
     }
     assert_eq!(desk.names(), ["pack", "small.toml"]);

@@ -11,6 +11,7 @@ mod handover;
 mod interrupt;
 mod look;
 mod photograph;
+mod places;
 mod recipe;
 mod streams;
 
@@ -104,7 +105,11 @@ impl Desk {
 
     /// Names of everything that lies here, hidden files too.
     fn names(&self) -> Vec<String> {
-        contents(self.0.path()).into_keys().collect()
+        let entries = std::fs::read_dir(self.0.path()).expect("a folder");
+        let names = entries.map(|entry| entry.expect("an entry").file_name());
+        let mut names: Vec<_> = names.map(|n| n.to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
     }
 
     /// A small pack here.

@@ -215,7 +215,7 @@ impl RenderArgs {
         let stray =
             owners().find(|(option, owners)| is_given(given, option) && !owners.contains(&method));
         let Some((option, owners)) = stray else {
-            return self.check_shadow().and_then(|()| self.check_interval());
+            return self.check_interval();
         };
         let owners = owners.iter().map(|m| m.name()).collect::<Vec<_>>();
         Err(belongs(
@@ -223,17 +223,6 @@ impl RenderArgs {
             &format!("--method {}", owners.join(" or ")),
             &format!("--method {}", method.name()),
             "change the method",
-        ))
-    }
-
-    /// One picture would take the place of the other.
-    fn check_shadow(&self) -> Result<(), String> {
-        if self.lit.shadow.as_ref() != Some(&self.output) {
-            return Ok(());
-        }
-        Err(format!(
-            "--shadow and --output both name {}; choose two names",
-            self.output.display()
         ))
     }
 

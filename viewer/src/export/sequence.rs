@@ -8,7 +8,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use crate::save::{SaveError, verify_folder};
+use welkin_pack::WriteError;
+use welkin_pack::whole::others_in;
 
 /// Frames that a sequence may have: as many as six digits count.
 pub const MOST_FRAMES: u32 = 1_000_000;
@@ -77,30 +78,41 @@ pub fn file_name(number: u32, extension: &str) -> String {
     format!("frame-{number:06}.{extension}")
 }
 
-/// Whether a file has a name that [`file_name`] gives for one of these extensions.
-pub fn is_frame(name: &str, extensions: &[&str]) -> bool {
+/// What the names of frames may end in, without the dot.
+const EXTENSIONS: [&str; 4] = ["png", "exr", "hdr", "ktx2"];
+
+/// Whether a file has a name that [`file_name`] gives.
+pub fn is_frame(name: &str) -> bool {
     let number = name
         .strip_prefix("frame-")
         .and_then(|rest| rest.split_once('.'))
         .filter(|(digits, _)| digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit()));
-    number.is_some_and(|(_, extension)| extensions.contains(&extension))
+    number.is_some_and(|(_, extension)| EXTENSIONS.contains(&extension))
 }
 
 /// The folder of a sequence, made if it is not there. Others may be writing frames into it.
 ///
 /// # Errors
-/// [`SaveError::NotAFolder`], [`SaveError::NotOurs`] if there is a folder with anything but frames in it, [`SaveError::Write`].
-pub fn open_folder(place: &Path, extensions: &[&str]) -> Result<(), SaveError> {
+/// [`WriteError::NotAFolder`], [`WriteError::NotOurs`] if there is a folder with anything but frames in it, [`WriteError::Failed`].
+pub fn open_folder(place: &Path) -> Result<(), WriteError> {
+    let file = || place.display().to_string();
     match fs::create_dir(place) {
         Ok(()) => return Ok(()),
         // Here before, or made by another part just now.
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-        Err(source) => {
-            let file = place.display().to_string();
-            return Err(SaveError::Write { file, source });
+        Err(reason) => {
+            let file = file();
+            return Err(WriteError::Failed { file, reason });
         }
     }
-    verify_folder(place, |name| is_frame(name, extensions)).map(|_| ())
+    let others = others_in(place, is_frame)?;
+    match others.first() {
+        None => Ok(()),
+        Some(found) => Err(WriteError::NotOurs {
+            file: file(),
+            found: found.clone(),
+        }),
+    }
 }
 
 /// Where a frame goes.
@@ -172,7 +184,7 @@ mod tests {
         assert_eq!(file_name(7, "png"), "frame-000007.png");
         assert_eq!(file_name(MOST_FRAMES - 1, "exr"), "frame-999999.exr");
         for name in ["frame-000007.png", "frame-999999.exr"] {
-            assert!(is_frame(name, &["png", "exr"]));
+            assert!(is_frame(name));
         }
         for name in [
             "frame-7.png",
@@ -183,7 +195,7 @@ mod tests {
             "my-frame-000007.png",
             "frame-000007.png.txt",
         ] {
-            assert!(!is_frame(name, &["png", "exr"]), "{name}");
+            assert!(!is_frame(name), "{name}");
         }
     }
 
@@ -191,13 +203,20 @@ mod tests {
     fn a_folder_with_something_else_in_it_is_refused() {
         let parent = tempfile::tempdir().unwrap();
         let place = parent.path().join("frames");
-        open_folder(&place, &["png"]).unwrap();
+        open_folder(&place).unwrap();
         fs::write(place.join("frame-000003.png"), "").unwrap();
-        fs::write(place.join(".welkin-abc"), "").unwrap();
-        open_folder(&place, &["png"]).unwrap();
+        for litter in [
+            ".welkin-abc123.lock",
+            ".DS_Store",
+            "Thumbs.db",
+            "._frame-000003.png",
+        ] {
+            fs::write(place.join(litter), "").unwrap();
+        }
+        open_folder(&place).unwrap();
         fs::write(place.join("notes.txt"), "").unwrap();
-        let error = open_folder(&place, &["png"]).unwrap_err();
+        let error = open_folder(&place).unwrap_err();
         assert!(error.to_string().contains("notes.txt"), "{error}");
-        assert!(open_folder(&parent.path().join("none/frames"), &["png"]).is_err());
+        assert!(open_folder(&parent.path().join("none/frames")).is_err());
     }
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use welkin_pack::Pack;
+use welkin_pack::whole::{Folder, IsOurs, verify_folder, write_file};
 use welkin_viewer::export::Environment;
 use welkin_viewer::export::cube::FACES;
 use welkin_viewer::export::cubemap::Cubemap;
@@ -11,7 +12,7 @@ use welkin_viewer::export::display::displayed;
 use welkin_viewer::frame::Frame;
 use welkin_viewer::gpu::{Gpu, GpuError};
 use welkin_viewer::headless::{Stage, View};
-use welkin_viewer::save::{Format, encode, save_bytes, save_folder, verify_folder};
+use welkin_viewer::save::{Format, encode};
 
 use crate::cli::Shot;
 
@@ -86,13 +87,20 @@ fn faces(map: &Cubemap, format: Format, folder: &str) -> Result<Vec<(String, Vec
 
 /// Draws one moment and saves it.
 pub fn draw(mut artist: Artist<'_>, view: &View, output: &Path) -> Result<()> {
+    const OURS: Option<IsOurs> = Some(is_face);
     if matches!(artist, Artist::Faces(..)) {
         // Before anything slow begins.
-        verify_folder(output, is_face)?;
+        verify_folder(output, OURS)?;
     }
     match artist.draw(view, &output.display().to_string())? {
-        Encoded::File(bytes) => save_bytes(output, &bytes)?,
-        Encoded::Folder(files) => save_folder(output, &files, is_face)?,
+        Encoded::File(bytes) => write_file(output, &bytes, &|| false)?,
+        Encoded::Folder(files) => {
+            let folder = Folder::begin(output, OURS)?;
+            for (name, bytes) in &files {
+                folder.add(name, bytes)?;
+            }
+            super::tell(&folder.publish()?);
+        }
     }
     Ok(())
 }

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
+use welkin_pack::whole::{sweep, write_file};
 use welkin_viewer::export::sequence::{Sequence, open_folder, path};
 use welkin_viewer::headless::View;
-use welkin_viewer::save::{Format, save_bytes};
 
 use super::artist::{Artist, Encoded};
 use crate::interrupt;
@@ -20,8 +20,8 @@ pub fn draw(
     sequence: &Sequence,
     (folder, extension): (&Path, &str),
 ) -> Result<()> {
-    let pictures = Format::ALL.map(Format::extension);
-    open_folder(folder, &[&pictures[..], &["ktx2"]].concat())?;
+    open_folder(folder)?;
+    super::tell(&sweep(folder));
     interrupt::listen()?;
     let numbers = sequence.numbers();
     let bar = progress(numbers.len() as u64);
@@ -39,7 +39,7 @@ pub fn draw(
             ..view.clone()
         };
         if let Encoded::File(bytes) = artist.draw(&moment, &file.display().to_string())? {
-            save_bytes(&file, &bytes)?;
+            write_file(&file, &bytes, &|| false)?;
         }
         bar.inc(1);
     }

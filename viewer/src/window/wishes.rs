@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use welkin_pack::Overwrite;
-use welkin_viewer::save::write_whole;
+use welkin_pack::whole::write_file;
 use winit::window::Fullscreen;
 
 use super::app::App;
@@ -22,13 +22,8 @@ impl App {
         match wish {
             Wish::SaveSettings => {
                 let file = state.files.settings.clone();
-                write_whole(Path::new(&file), state.settings.to_toml().as_bytes()).map_err(
-                    |e| {
-                        anyhow!(
-                            "{file}: cannot be written: {e}; choose another place for the settings"
-                        )
-                    },
-                )?;
+                let text = state.settings.to_toml();
+                write_file(Path::new(&file), text.as_bytes(), &|| false)?;
                 return Ok(Some(format!("{file}: settings saved")));
             }
             Wish::LoadSettings => {
@@ -60,9 +55,10 @@ impl App {
             Wish::SavePack => {
                 let folder = PathBuf::from(&state.files.pack);
                 let source = &mut state.source;
-                source.pack.save(&folder, Overwrite::Replace, &|| false)?;
+                let left = source.pack.save(&folder, Overwrite::Replace, &|| false)?;
                 (source.folder, source.is_saved) = (Some(folder), true);
-                return Ok(Some(format!("{}: pack saved", state.files.pack)));
+                let left: String = left.iter().map(|left| format!("; {left}")).collect();
+                return Ok(Some(format!("{}: pack saved{left}", state.files.pack)));
             }
             // It goes the way of a device that was lost.
             Wish::RestartGraphics => graphics.gpu.device.destroy(),
