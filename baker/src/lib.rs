@@ -46,13 +46,14 @@ pub use bake::{
 };
 pub use clouds::photo::BUILT_IN_NAME as BUILT_IN_PHOTO;
 pub use error::{BakeError, RecipeError};
+pub use field::model::cloud_model;
 pub use inputs::Inputs;
 pub use load::read_photo;
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
     BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound, FieldSettings,
     FlareSettings, FractalSettings, GalaxySettings, GradientSettings, LayerSettings,
-    LayersSettings, ModelSettings, ModelSource, PhotoSettings, Resolved, SkySettings,
+    LayersSettings, ModelSettings, ModelSource, PhotoSettings, PlacedSprite, Resolved, SkySettings,
     SkyboxPicture, SkyboxSettings, SpriteShape, SpriteSource, SpritesSettings, StarSettings,
     SunSettings,
 };

@@ -6,6 +6,7 @@ use welkin_pack::Format;
 
 pub use field::{
     BoxSettings, CloudLayerSettings, FieldBound, FieldSettings, ModelSettings, ModelSource,
+    PlacedSprite,
 };
 
 /// Everything a bake needs to know, checked.
