@@ -415,7 +415,11 @@ fn a_cloud_is_shaded_by_what_is_between_it_and_the_sun() {
         }
         let (shaded, free) = (mean(shaded.into_iter()), mean(free.into_iter()));
         println!("time {time}, step {step}: {shaded:.3} shaded, {free:.3} free");
-        assert!(shaded < 0.9 * free, "time {time}: {shaded} {free}");
+        // At the least the farthest of the three places, a sixth of the blur, has lost four tenths.
+        assert!(
+            shaded < (1.0 - 0.4 / 6.0) * free,
+            "time {time}: {shaded} {free}"
+        );
     }
 }
 
