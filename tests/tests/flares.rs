@@ -236,7 +236,10 @@ fn the_flare_is_round_unless_a_starburst_is_asked_for() {
     println!("round {round:.3}, starburst {star:.3}");
     // The sharpest edge, of the disc, is 2.4 pixels wide here: over a quarter of a pixel it falls by a tenth.
     assert!(round < 0.1, "{round}");
-    assert!(star > 0.1, "the same number tells what is not round: {star}");
+    assert!(
+        star > 0.1,
+        "the same number tells what is not round: {star}"
+    );
 }
 
 #[test]
