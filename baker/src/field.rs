@@ -17,6 +17,7 @@
 
 pub(crate) mod boxes;
 mod cloud;
+mod clumps;
 mod cull;
 mod ground;
 pub(crate) mod kinds;

@@ -52,6 +52,7 @@ pub use bake::{
 };
 pub use clouds::photo::BUILT_IN_NAME as BUILT_IN_PHOTO;
 pub use error::{BakeError, Fault, RecipeError};
+pub use field::model::cloud_model;
 pub use inputs::Inputs;
 pub use load::{TextureFile, decode_texture, read_photo};
 pub use notice::{Clipped, Notice};
@@ -60,7 +61,7 @@ pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
     BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound, FieldSettings,
     FlareSettings, FractalSettings, GalaxySettings, GradientSettings, LayerSettings,
-    LayersSettings, ModelSettings, ModelSource, PhotoSettings, Resolved, SkySettings,
+    LayersSettings, ModelSettings, ModelSource, PhotoSettings, PlacedSprite, Resolved, SkySettings,
     SkyboxPicture, SkyboxSettings, SpriteShape, SpriteSource, SpritesSettings, StarSettings,
     SunSettings,
 };

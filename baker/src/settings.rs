@@ -7,6 +7,7 @@ use welkin_pack::manifest::FractalNoise;
 
 pub use field::{
     BoxSettings, CloudLayerSettings, FieldBound, FieldSettings, ModelSettings, ModelSource,
+    PlacedSprite,
 };
 
 /// Everything a bake needs to know, checked.

@@ -102,8 +102,8 @@ pub enum Input {
 pub(crate) enum CommandOption {
     /// An option and the text.
     Value(&'static str),
-    /// A flag for `false`.
-    Unless(&'static str),
+    /// A flag for what is not usual.
+    Flag(&'static str),
     /// Not at all.
     None,
 }
@@ -193,7 +193,7 @@ impl Key {
             CommandOption::Value(option) => {
                 vec![format!("--{option}"), self.text(settings)]
             }
-            CommandOption::Unless(flag) => vec![format!("--{flag}")],
+            CommandOption::Flag(flag) => vec![format!("--{flag}")],
             CommandOption::None => Vec::new(),
         }
     }

@@ -364,6 +364,14 @@ pub const KEYS: &[Key] = &[
         Group::Light,
         |s| &mut s.params.flare,
     ),
+    switch(
+        "starburst",
+        "Starburst",
+        "Whether the flare's picture of the sun is a starburst instead of a disc",
+        "starburst",
+        |s| &mut s.params.starburst,
+    )
+    .when(has_flare),
     unit(
         "skybox",
         "Skybox",
@@ -495,6 +503,10 @@ const PEREZ: [[f64; 2]; 5] = {
     }
     ranges
 };
+
+fn has_flare(settings: &Settings) -> bool {
+    settings.params.flare > 0.0
+}
 
 fn is_perez(settings: &Settings) -> bool {
     settings.params.sky == SkyModel::Perez

@@ -7,7 +7,7 @@ use welkin_runtime::{LitLayer, LitParams};
 use crate::values::of_sky;
 
 /// How it is written.
-pub const LAYERS_FORM: &str = "KIND[:SHARE[:HEIGHT]],...";
+pub const LAYERS_FORM: &str = "KIND[:SHARE[:HEIGHT[:EAST:SOUTH]]],...";
 
 /// What it means.
 pub fn layers_help() -> String {
@@ -15,7 +15,7 @@ pub fn layers_help() -> String {
     format!(
         "1 to {MAX_LAYERS} layers between commas; lower ones hide higher ones. KIND is one of {}; SHARE its part in the \
          cover beside the other layers, 0 to 1, or else 1; HEIGHT counts in heights of the dome, 0.1 to 20, or else is the \
-         kind's [default: {}]",
+         kind's; EAST and SOUTH say where it goes at speed 1, in metres a second, -200 to 200, or else as its kind does [default: {}]",
         kinds(),
         usual
     )
@@ -28,7 +28,8 @@ pub fn layers_text(layers: &[LitLayer]) -> String {
 }
 
 fn written(layer: &LitLayer) -> String {
-    format!("{}:{}:{}", layer.kind.name(), layer.share, layer.height)
+    let (kind, [east, south]) = (layer.kind.name(), layer.velocity_m_s);
+    format!("{kind}:{}:{}:{east}:{south}", layer.share, layer.height)
 }
 
 fn kinds() -> String {
@@ -57,17 +58,23 @@ pub fn layers(text: &str) -> Result<[LitLayer; MAX_LAYERS], String> {
 fn layer(text: &str) -> Result<LitLayer, String> {
     let mut parts = text.split(':').map(str::trim);
     let name = parts.next().unwrap_or_default();
-    let [share, height, too_much] = [parts.next(), parts.next(), parts.next()];
+    let [share, height, east, south, too_much] = std::array::from_fn(|_| parts.next());
     let kind = LayerKind::from_name(name).ok_or_else(|| {
         format!(
             "\"{name}\" is no kind of cloud; expected one of {}",
             kinds()
         )
     })?;
+    let form = |fault: &str| {
+        format!(
+            "\"{text}\" {fault}; expected KIND[:SHARE[:HEIGHT[:EAST:SOUTH]]], such as {name}:0.7:1.2 or {name}:0.7:1.2:30:-15"
+        )
+    };
     if too_much.is_some() {
-        return Err(format!(
-            "\"{text}\" has too many parts; expected KIND[:SHARE[:HEIGHT]], such as {name}:0.7:1.2"
-        ));
+        return Err(form("has too many parts"));
+    }
+    if east.is_some() && south.is_none() {
+        return Err(form("has a velocity to the east and none to the south"));
     }
     let told = |number: &str, key: &str, value: Result<f32, String>| {
         value.map_err(|expected| format!("the {key} of {name} is \"{number}\", {expected}"))
@@ -89,11 +96,19 @@ fn layer(text: &str) -> Result<LitLayer, String> {
         layer.height = told(height, "height", value)?;
     }
     layer.velocity_m_s = velocity_m_s(&layer);
+    const UNIT: &str = " metres a second";
+    if let Some(east) = east {
+        let value = of_sky(east, |sky, v| sky.lit.layers[0].velocity_m_s[0] = v, UNIT);
+        layer.velocity_m_s[0] = told(east, "velocity to the east", value)?;
+    }
+    if let Some(south) = south {
+        let value = of_sky(south, |sky, v| sky.lit.layers[0].velocity_m_s[1] = v, UNIT);
+        layer.velocity_m_s[1] = told(south, "velocity to the south", value)?;
+    }
     Ok(layer)
 }
 
-/// A layer at the height of a usual one of its kind moves as that one does, others as their kind does: so the text of the usual
-/// layers stands for them, and a share that changes moves no cloud.
+/// Without a velocity of its own a layer at the height of a usual one of its kind moves as that one does, others as their kind does.
 fn velocity_m_s(layer: &LitLayer) -> [f32; 2] {
     let usual = LitParams::default().layers;
     let like = |other: &&LitLayer| (other.kind, other.height) == (layer.kind, layer.height);
@@ -111,6 +126,37 @@ mod tests {
     fn the_text_of_the_usual_layers_stands_for_them() {
         let usual = LitParams::default().layers;
         assert_eq!(layers(&layers_text(&usual)), Ok(usual));
+    }
+
+    #[test]
+    fn each_layer_has_the_velocity_that_it_is_given() {
+        let text = "cumulus:0.5:1:-12.5:0,cirrus:0.5:6:0:200";
+        let [low, high, ..] = layers(text).unwrap();
+        assert_eq!(low.velocity_m_s, [-12.5, 0.0]);
+        assert_eq!(high.velocity_m_s, [0.0, 200.0]);
+        assert_eq!(layers_text(&[low, high]), text);
+    }
+
+    #[test]
+    fn half_a_velocity_and_one_out_of_range_are_refused() {
+        for (text, expected) in [
+            (
+                "cumulus:1:1:5",
+                "has a velocity to the east and none to the south",
+            ),
+            ("cumulus:1:1:5:6:7", "has too many parts"),
+            (
+                "cumulus:1:1:201:0",
+                "the velocity to the east of cumulus is \"201\"",
+            ),
+            (
+                "cumulus:1:1:0:x",
+                "the velocity to the south of cumulus is \"x\"",
+            ),
+        ] {
+            let error = layers(text).unwrap_err();
+            assert!(error.contains(expected), "{error}");
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@ struct LitLayerUniforms {
     axes: vec4f,  // xy: what a height of the dome to the east, zw: to the south adds to uv
     place: vec4f, // xy: offset; zw: how far the second read is from the first
     shape: vec4f, // x: the cut; y: 1 / thickness at which it is opaque; z: opacity where thick; w: how fast shade deepens
-    sun: vec4f,   // xy: a step of the shade towards the sun, in uv; z: level of detail at distance 1; w: layer of the pack's texture
+    sun: vec4f,   // x: share of the way to the sun that a step of the blur takes; z: level of detail at distance 1; w: layer of the pack's texture
     facing: vec4f, // xy: horizontal part of the direction to the sun, along u and v; z: share of the grain; w: relief
 }
 
@@ -11,6 +11,7 @@ struct LitUniforms {
     dome: vec4f,    // x: f^2; y: 1 - f^2, f the flattening; z: layers; w: texels a side of the map
     light: vec4f,   // rgb: light of sun or moon on clouds; w: k1
     towards: vec4f, // xyz: unit direction towards sun or moon; w: k2
+    source: vec4f,  // xy: where sun or moon is seen on the dome's plane, in its heights
     ambient: vec4f, // rgb: light of the sky on clouds; w: m
     layers: array<LitLayerUniforms, 6>,
 }
@@ -43,7 +44,22 @@ fn lit_grain(index: i32, plane: vec2f, level: f32) -> vec2f {
     return vec2f(finer.w - 0.5, LIT_FINER_RELIEF * dot(finer.xy * 2.0 - 1.0, facing.xy));
 }
 
-// A layer along a ray, roughened by the grain: light that falls on it, nothing, opacity, shade.
+// The way from a place of the plane to where sun or moon is seen, no longer than shade reaches.
+fn lit_way(plane: vec2f) -> vec2f {
+    let way = uniforms.lit.source.xy - plane;
+    return way * min(1.0, LIT_LONGEST_WAY * inverseSqrt(max(dot(way, way), 1e-12)));
+}
+
+// What a layer leaves of the light: the shade of the place itself and of two towards the sun, a radial blur.
+fn lit_blurred(index: i32, plane: vec2f, way: vec2f, level: f32, own: f32) -> f32 {
+    let sun = uniforms.lit.layers[index].sun;
+    let coarse = max(level + sun.z, 0.0) + LIT_BLUR_LEVEL;
+    let near = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane + sun.x * way), index, coarse);
+    let far = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane + 2.0 * sun.x * way), index, coarse);
+    return dot(LIT_BLUR, vec3f(own, near.w, far.w));
+}
+
+// A layer along a ray, roughened by the grain: light that falls on it, nothing, opacity, shade of the place alone.
 fn lit_cloud(index: i32, plane: vec2f, level: f32, grain: vec2f) -> vec4f {
     let at_level = level + uniforms.lit.layers[index].sun.z;
     let cloud = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane), index, at_level);
@@ -74,9 +90,13 @@ fn lit_over(behind: LitSum, cloud: vec4f, through: f32) -> LitSum {
 // Three layers, their reads first: none waits for another. Not a loop: constants at known places cost nothing.
 fn lit_iteration(behind: LitSum, first: i32, plane: vec2f, level: f32, through: f32) -> LitSum {
     let grain = lit_grain(first, plane, level);
-    let low = lit_cloud(first, plane, level, grain);
-    let middle = lit_cloud(first + 1, plane, level, grain);
-    let high = lit_cloud(first + 2, plane, level, grain);
+    let way = lit_way(plane);
+    var low = lit_cloud(first, plane, level, grain);
+    var middle = lit_cloud(first + 1, plane, level, grain);
+    var high = lit_cloud(first + 2, plane, level, grain);
+    low.w = lit_blurred(first, plane, way, level, low.w);
+    middle.w = lit_blurred(first + 1, plane, way, level, middle.w);
+    high.w = lit_blurred(first + 2, plane, way, level, high.w);
     return lit_over(lit_over(lit_over(behind, high, through), middle, through), low, through);
 }
 

@@ -21,32 +21,25 @@ fn lit_even(blend: f32) -> f32 {
 }
 
 // The pack's texture where a layer reads it, both reads blended: normal, density, amount.
-fn lit_noise(layer: LitLayerUniforms, uv: vec2f, level: f32) -> vec4f {
+fn lit_noise(layer: LitLayerUniforms, uv: vec2f) -> vec4f {
     let kind = i32(layer.sun.w);
-    let here = textureSampleLevel(layers_texture, repeat_sampler, uv, kind, level);
-    let other = textureSampleLevel(layers_texture, repeat_sampler, uv + layer.place.zw, kind, level);
+    let here = textureSampleLevel(layers_texture, repeat_sampler, uv, kind, 0.0);
+    let other = textureSampleLevel(layers_texture, repeat_sampler, uv + layer.place.zw, kind, 0.0);
     let blend = LIT_WEIGHTS.x * here + LIT_WEIGHTS.y * other;
     return vec4f(blend.xyz, lit_even(blend.w));
 }
 
-// R: light that falls on the cloud; G: the amount of cloud; B: opacity; A: shade.
+// R: light that falls on the cloud; G: the amount of cloud; B: opacity; A: shade by the place alone.
 fn lit_map_texel(index: i32, uv: vec2f) -> vec4f {
     let layer = uniforms.lit.layers[index];
-    let cloud = lit_noise(layer, uv, 0.0);
+    let cloud = lit_noise(layer, uv);
     let slope = layer.facing.w * (cloud.xy * 2.0 - 1.0);
     let upward = sqrt(max(1.0 - dot(slope, slope), LIT_LEAST_UP));
     let falls = max(dot(slope, layer.facing.xy) + upward * uniforms.lit.towards.y, 0.0); // eq. 3
     let thickness = max(cloud.w - layer.shape.x, 0.0);
     let alpha = smoothstep(0.0, 1.0, layer.shape.y * thickness);
-    // Nearer cloud shades more: the weights fall evenly from the place itself to the last step.
-    var sum = (f32(LIT_STEPS) + 1.0) * lit_thick(layer, cloud);
-    for (var k = 1; k <= LIT_STEPS; k++) {
-        let towards = lit_noise(layer, uv + f32(k) * layer.sun.xy, LIT_STEP_LEVEL);
-        sum += f32(LIT_STEPS + 1 - k) * lit_thick(layer, towards);
-    }
-    let weights = 0.5 * f32((LIT_STEPS + 1) * (LIT_STEPS + 2));
     // Eq. 5 with C = 1 - 2^(-w s), so that it never ends: (1 - C)^m.
-    let shade = exp2(-uniforms.lit.ambient.w * layer.shape.w * sum / weights);
+    let shade = exp2(-uniforms.lit.ambient.w * layer.shape.w * lit_thick(layer, cloud));
     return vec4f(falls, cloud.w, alpha, shade);
 }
 

@@ -75,11 +75,13 @@ struct SpriteVaryings {
     @location(3) relief: vec3f, // what a grey of one more adds
 }
 
-// Listing 1 of the article: a cloud forms from its middle to its edge. `place` is 0 in the middle, 1 on the edge.
-fn sprite_formed(amount: f32, place: f32) -> f32 {
+// A cloud forms from its middle to its edge, in two stages: sprites whose centre is within half its radius, then the others.
+// `place` of a vertex and `centre` of its sprite are 0 in the middle of the cloud, 1 on the edge.
+fn sprite_formed(amount: f32, place: f32, centre: f32) -> f32 {
     let core = min(2.0 * amount, 1.0);
     let edges = 1.0 - max(2.0 * amount - 1.0, 0.0);
-    return clamp(core - edges * place, 0.0, 1.0);
+    let stage = select(1.0, 1.0 - edges, centre > SPRITE_FIRST_STAGE);
+    return clamp(core - edges * place, 0.0, 1.0) * stage;
 }
 
 fn sprite_amount(low: u32, high: u32) -> f32 {
@@ -175,7 +177,8 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     let direction = place / max(away, 1e-3);
     let up = clamp(0.5 + 0.5 * offset.y / instance.size.y, 0.0, 1.0);
 
-    let formed = sprite_formed(amount, length(instance.from_cloud.xyz + offset) / instance.from_cloud.w);
+    let places = vec2f(length(instance.from_cloud.xyz + offset), length(instance.from_cloud.xyz)) / instance.from_cloud.w;
+    let formed = sprite_formed(amount, places.x, places.y);
     opacity *= formed * mix(instance.low.a, instance.high.a, up);
     let light = sprite_light(instance, offset, direction, up);
     let clearness = sprite_clearness(place, away) * rim;

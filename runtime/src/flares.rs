@@ -3,11 +3,12 @@
 //! # Theory
 //! Guthikonda et al. (see [`crate::octaves`]), section III: a picture of the sun and five of flares, at 0.5, 0.33333, -0.05, -0.25 and
 //! -0.75 of the sun's distance from the middle of the screen, added by their own opacity. They are there only while
-//! the sun is in view. Lenses of circular shape, no aperture.
+//! the sun is in view. Every picture is round, as of a lens without an aperture.
 //!
 //! # Changes versus the paper
-//! The flare fades with the clouds before the sun, with the sun's height, and at the edge of the screen instead of going
-//! out at once. How much the clouds cover is asked of the method's own clouds, in the vertex stage: nothing is read back.
+//! - The flare fades with the clouds before the sun, with the sun's height, and at the edge of the screen instead of going
+//!   out at once. How much the clouds cover is asked of the method's own clouds, in the vertex stage: nothing is read back.
+//! - Where [`crate::SkyParams::starburst`] asks for it the sun's own picture is a starburst, as an aperture of blades makes it.
 //!
 //! # Practice
 //! Six squares, drawn after the sky and over the scene, in the target's own encoding: what is behind a hill is for the
@@ -26,9 +27,15 @@ pub const COUNT: u32 = 6;
 /// Distances of the squares from the middle of the screen, in distances of the sun; the sun's own first.
 pub const RATIOS: [f32; COUNT as usize] = [1.0, 0.5, 0.33333, -0.05, -0.25, -0.75];
 
-/// Picture, half side in halves of the screen's height, colour and opacity of each square.
-const SQUARES: [(FlareCell, f32, [f32; 3], f32); COUNT as usize] = [
-    (FlareCell::Starburst, 0.44, [1.0, 0.95, 0.85], 0.4),
+/// A square: its picture, half its side in halves of the screen's height, colour and opacity.
+type Square = (FlareCell, f32, [f32; 3], f32);
+
+/// The sun's square if it is a starburst.
+const STARBURST: Square = (FlareCell::Starburst, 0.44, [1.0, 0.95, 0.85], 0.4);
+
+/// Every square, the sun's first.
+const SQUARES: [Square; COUNT as usize] = [
+    (FlareCell::Disc, 0.2, [1.0, 0.95, 0.85], 0.2),
     (FlareCell::Disc, 0.085, [1.0, 0.85, 0.55], 0.14),
     (FlareCell::Ring, 0.15, [0.65, 0.85, 1.0], 0.15),
     (FlareCell::Disc, 0.05, [0.75, 1.0, 0.75], 0.12),
@@ -63,7 +70,11 @@ pub fn uniforms(
         ..Default::default()
     };
     let hue = light.sunlight / luminance(light.sunlight).max(1e-3);
-    for (k, (cell, half, colour, opacity)) in SQUARES.into_iter().enumerate() {
+    let mut squares = SQUARES;
+    if params.starburst {
+        squares[0] = STARBURST;
+    }
+    for (k, (cell, half, colour, opacity)) in squares.into_iter().enumerate() {
         let place = sun.unwrap_or_default() * RATIOS[k];
         flares.places[k] = [place.x, place.y, half * height / width, half];
         let colour = (Vec3::from(colour) * hue).min(Vec3::ONE);

@@ -124,6 +124,7 @@ impl Facts {
             _ => clouds::closing(whole.cover),
         };
         let overcast = vec4(overcast, closing);
+        let [_, noise, detail] = self.cloud_means;
         let camera = camera_uniforms(camera);
         // Without a skybox the shader does not read one.
         let (face, levels) = self.skybox.unwrap_or((1, 1));
@@ -140,7 +141,7 @@ impl Facts {
                 params.even_stars,
                 seconds,
             ),
-            galaxy: galaxy::uniforms(night, self.clouds_texels, pixel),
+            galaxy: galaxy::uniforms(night, [noise, detail], self.clouds_texels, pixel),
             skybox: skybox::uniforms(params.skybox, face, levels, pixel),
             clouds,
             packed,

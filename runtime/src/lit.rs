@@ -4,7 +4,8 @@
 //! K. Mukhina, A. Bezgodov, "The Method for Real-time Cloud Rendering", Procedia Computer Science 66, 2015. Layers lie on an
 //! oblate hemisphere about the viewer. Cover takes the brightest parts of a noise; its normals give the light that falls on the cloud,
 //! `LT = (n, S) L` (eq. 3); what comes through it is `LS = (k1 + k2 (v, S))^m L` (eq. 4); clouds towards the sun shade it,
-//! `SH = (1 - sum C)^m` (eq. 5); and `F = (LS + LT) SH` (eq. 6). Up to three layers are drawn in an iteration.
+//! `SH = (1 - sum C)^m` (eq. 5), blurred radially from where the sun stands; and `F = (LS + LT) SH` (eq. 6). Up to
+//! three layers are drawn in an iteration.
 //!
 //! # Changes versus the paper
 //! - The dome is intersected for each pixel: with the radius a, the height b and the flattening `f = b / a`, a ray meets it at
@@ -14,6 +15,8 @@
 //! - Cover is calibrated: shares of [`SkyParams::cover`] go to the layers such that together they cover it.
 //! - Normals, opacity and shade are functions of the place in a layer, so they are drawn off screen ([`crate::lit_map`]). Layers shade
 //!   the layers below them by what they leave of the light, a product in place of the paper's sum.
+//! - The radial blur has three places on the way to where the sun is seen on the dome ([`BLUR`]), as far apart as the light of a sun at
+//!   that place would go through a cloud of the kind's thickness; its length, which the paper does not tell, ends at [`LONGEST_WAY`].
 //! - Light of the sky is added: the paper's shaded clouds are black.
 //! - Normals are those of a flat layer, wherever it hangs on the dome: the dome brings the horizon near, clouds do not lean. So all of `LT`
 //!   is in the map.
@@ -23,7 +26,7 @@
 //!   that roughens the edges and the light of its layers.
 //!
 //! # Practice
-//! Four reads of texture arrays an iteration of three layers, used or not. Four passes of 256 texels and less an iteration.
+//! Ten reads of texture arrays an iteration of three layers, used or not. Four passes of 256 texels and less an iteration.
 
 use glam::{DMat2, DVec2, Vec2, Vec3};
 use welkin_pack::LayerKind;
@@ -43,6 +46,12 @@ pub const FINER_START: [f32; 2] = [0.29, 0.63];
 pub const FINER_RELIEF: f32 = 0.19;
 /// What a layer behind leaves of the light where it is opaque.
 pub const SHADED_BY_LAYER: f32 = 0.45;
+/// Shares of a place's own shade and of those of two places towards the sun in its blurred shade: nearer cloud counts more.
+pub const BLUR: [f32; 3] = [3.0 / 6.0, 2.0 / 6.0, 1.0 / 6.0];
+/// How much coarser those two are read: they are several texels apart.
+pub const BLUR_LEVEL: f32 = 1.5;
+/// The longest way to the sun that the blur takes a share of, in heights of the dome: so far is the sun on it at 22 degrees.
+pub const LONGEST_WAY: f32 = 2.5;
 /// The light of the sky on a cloud in full shade, and what light adds to it.
 pub const AMBIENT: [f32; 2] = [0.62, 0.38];
 /// The least radial stretch of a texel, over the tangential one, that chooses the level of detail.
@@ -113,8 +122,6 @@ const STARTS: [DVec2; crate::params::MAX_LAYERS] = [
 const CELLS: f64 = 12.0;
 /// The way of the second read, turned against the layer.
 const CHANGE_WAY: DVec2 = DVec2::new(0.8, -0.6);
-/// Cotangent of the lowest sun for which shade is drawn as long as it is.
-const LONGEST_SHADE: f64 = 2.5;
 /// How much less a shut sky is shaded: light comes from all sides.
 const EVENED: f32 = 0.65;
 /// Cover of a layer below which it is a trace.
@@ -180,6 +187,7 @@ pub fn uniforms(
     let light = luminary(light, own.moon);
     let sun = light.sun_direction;
     let f2 = own.flattening * own.flattening;
+    let seen = intersect(own.flattening, sun).position;
     let mut layers = [LitLayerUniforms::default(); crate::params::MAX_LAYERS];
     let mut count = 0;
     for (slot, (index, cover)) in layers.iter_mut().zip(drawn(params)) {
@@ -190,6 +198,7 @@ pub fn uniforms(
         dome: [f2, 1.0 - f2, count as f32, lit_map::SIDE as f32],
         light: vec4(light.sunlight * shut(params.cover), own.k1),
         towards: vec4(sun, own.k2),
+        source: vec4(Vec3::new(seen.x, seen.z, 0.0), 0.0),
         ambient: [
             clouds.ambient[0],
             clouds.ambient[1],
@@ -252,10 +261,8 @@ fn layer_uniforms(
     let near = view.distance(height_m);
     let texels_a_height = f64::from(lit_map::SIDE) * height_m / tile_m * near;
     let towards = Vec2::new(sun.x, sun.z).as_dvec2();
-    let cotangent = towards.length() / f64::from(sun.y.abs()).max(1e-3);
-    let reach_m = look.thickness_m * cotangent.min(LONGEST_SHADE);
-    let step =
-        turn * (towards.normalize_or_zero() * (reach_m / tile_m / f64::from(lit_map::STEPS)));
+    // Of two steps each way; a viewer near the layer sees no farther than to the sun.
+    let step = 0.5 * (look.thickness_m / (height_m * near)).min(1.0);
     let steepness = (1.0 + params.density) / look.opaque;
     let facing = (turn * towards).as_vec2();
     LitLayerUniforms {
@@ -268,8 +275,8 @@ fn layer_uniforms(
             look.shade * (0.6 + 0.8 * params.density) * (1.0 - EVENED * closing(params.cover)),
         ],
         sun: [
-            step.x as f32,
-            step.y as f32,
+            step as f32,
+            0.0,
             view.level(texels_a_height),
             layer.kind as u32 as f32,
         ],

@@ -2,18 +2,16 @@
 //!
 //! # Theory
 //! Mukhina and Bezgodov (see [`crate::lit`]), section 4: cover takes the brightest parts of the noise; normals are read from the
-//! texture; shade is `SH = (1 - sum C)^m` over the cloud towards the sun, blurred radially in that direction (eq. 5). Three layers
+//! texture; shade is `SH = (1 - sum C)^m` (eq. 5), here of each place alone: the dome blurs it radially. Three layers
 //! are drawn in an iteration, as the paper has them in three colour channels: here they are three colour attachments.
 //!
 //! # Changes versus the paper
 //! - Two reads, weighted [`WEIGHTS`], move apart. Ranks are evenly distributed, so the sum has a trapezoidal distribution, whose
 //!   integral makes it even again: what cover cuts is an exact share.
 //! - `C` of eq. 5 is the share that the thickness towards the sun takes, `1 - 2^(-w s)`: a sum of coverages goes beyond 1.
-//! - The sun is as far from every place of a flat layer, so the blur goes along one direction: [`STEPS`] steps as long as the
-//!   clouds are thick, over the tangent of the sun's height.
 //!
 //! # Practice
-//! Eight reads a texel and layer, 256x256 texels. Channels: R is `LT` (eq. 3), G the amount of
+//! Two reads a texel and layer, 256x256 texels. Channels: R is `LT` (eq. 3), G the amount of
 //! cloud before cover, B the opacity, A the shade.
 
 use crate::layouts::{Layouts, array_layers};
@@ -22,12 +20,8 @@ use crate::params::{LAYERS_AN_ITERATION, MAX_LAYERS};
 
 /// Texels a side.
 pub const SIDE: u32 = 256;
-/// Steps of the shade towards the sun.
-pub const STEPS: u32 = 3;
 /// The least square of a normal's upward part.
 pub const LEAST_UP: f32 = 0.04;
-/// Level of the pack's texture at which the steps read it: a step is several texels long.
-pub const STEP_LEVEL: f32 = 1.0;
 /// Weights of the two reads, the larger first; together 1.
 pub const WEIGHTS: [f32; 2] = [0.6, 0.4];
 

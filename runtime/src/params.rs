@@ -199,6 +199,8 @@ pub struct SkyParams {
     pub even_stars: bool,
     /// Strength of the lens flare, 0 (off) to 1.
     pub flare: f32,
+    /// Whether the flare's picture of the sun is a starburst instead of a disc.
+    pub starburst: bool,
     /// How far the pack's skybox, if it has one, takes the place of the computed sky, 0 to 1.
     pub skybox: f32,
 }
@@ -238,6 +240,7 @@ impl Default for SkyParams {
             stars: true,
             even_stars: false,
             flare: 1.0,
+            starburst: false,
             skybox: 1.0,
         }
     }

@@ -149,10 +149,12 @@ fn constants(build: Build) -> String {
         ("LIT_SHADED_BY_LAYER", lit::SHADED_BY_LAYER),
         ("LIT_LEAST_STRETCH", lit::LEAST_STRETCH),
         ("LIT_LEAST_UP", lit_map::LEAST_UP),
-        ("LIT_STEP_LEVEL", lit_map::STEP_LEVEL),
+        ("LIT_BLUR_LEVEL", lit::BLUR_LEVEL),
+        ("LIT_LONGEST_WAY", lit::LONGEST_WAY),
         ("SPRITE_RIM_OPAQUE", sprites::RIM_OPAQUE),
         ("SPRITE_MOST_HALF_SIZE", instances::MOST_HALF_SIZE_M),
         ("SPRITE_MOST_AWAY", instances::MOST_AWAY_M),
+        ("SPRITE_FIRST_STAGE", sprites::formation::FIRST_STAGE),
         ("SPRITE_LOCK", sprites::locks::LOCK),
         ("SPRITE_NEAR", sprites::locks::NEAR),
         ("RING_COS", sprites::ring::COSINE),
@@ -197,7 +199,6 @@ fn constants(build: Build) -> String {
         let _ = writeln!(text, "const {name} = {value}u;");
     }
     let _ = writeln!(text, "const SPRITES_A_ROW = {}u;", instances::A_ROW);
-    let _ = writeln!(text, "const LIT_STEPS = {};", lit_map::STEPS);
     let _ = writeln!(
         text,
         "const LIT_LAYERS_AN_ITERATION = {};",
@@ -222,6 +223,7 @@ fn constants(build: Build) -> String {
     let [rgb_x, rgb_y, rgb_z] = perez::RGB_OF_XYZ;
     for (name, colour) in [
         ("LUMINANCE", light::LUMINANCE),
+        ("LIT_BLUR", lit::BLUR.into()),
         ("STAR_WARM", stars::WARM),
         ("STAR_COLD", stars::COLD),
         ("PEREZ_DAYLIGHT", perez::DAYLIGHT.into()),
@@ -398,7 +400,7 @@ mod tests {
         assert_same_layout!(module, PerezUniforms, sun, a, b, c, d, e, base, zenith);
         assert_same_layout!(module, SunUniforms, right, up, disc, glow, towards);
         assert_same_layout!(module, StarUniforms, field, spread);
-        assert_same_layout!(module, GalaxyUniforms, light);
+        assert_same_layout!(module, GalaxyUniforms, light, grain);
         assert_same_layout!(module, SkyboxUniforms, mix);
         assert_same_layout!(module, CloudUniforms, gradient, sunlight, ambient, tint);
         assert_same_layout!(
@@ -441,7 +443,16 @@ mod tests {
             weights_b
         );
         assert_same_layout!(module, LitLayerUniforms, axes, place, shape, sun, facing);
-        assert_same_layout!(module, LitUniforms, dome, light, towards, ambient, layers);
+        assert_same_layout!(
+            module,
+            LitUniforms,
+            dome,
+            light,
+            towards,
+            source,
+            ambient,
+            layers
+        );
         assert_same_layout!(
             module,
             SpriteUniforms,

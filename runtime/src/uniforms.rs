@@ -96,6 +96,8 @@ pub struct StarUniforms {
 pub struct GalaxyUniforms {
     /// rgb: radiance of the brightest place, times the share of the night sky; w: level of detail of the grain.
     pub light: [f32; 4],
+    /// x: the grain without noise and detail; y, z: what noise and detail add where they are 1. Its mean is 1.
+    pub grain: [f32; 4],
 }
 
 /// The skybox.
@@ -210,7 +212,7 @@ pub struct LitLayerUniforms {
     pub place: [f32; 4],
     /// x: the cut; y: 1 / thickness at which it is opaque; z: opacity where thick; w: how fast shade deepens.
     pub shape: [f32; 4],
-    /// xy: a step of the shade towards the sun, in uv; z: level of detail at distance 1; w: layer of the pack's texture.
+    /// x: share of the way to the sun that a step of the blur takes; z: level of detail at distance 1; w: layer of the pack's texture.
     pub sun: [f32; 4],
     /// xy: horizontal part of the direction to the sun, along u and v; z: share of the grain; w: relief.
     pub facing: [f32; 4],
@@ -226,6 +228,8 @@ pub struct LitUniforms {
     pub light: [f32; 4],
     /// xyz: unit direction towards sun or moon; w: k2.
     pub towards: [f32; 4],
+    /// xy: where sun or moon is seen on the dome's plane, in its heights.
+    pub source: [f32; 4],
     /// rgb: light of the sky on clouds; w: m.
     pub ambient: [f32; 4],
     /// From the lowest to the highest.

@@ -18,5 +18,6 @@ pub fn brightness(
     let [stored, ..] = texture.sample(mapping::direction_to_galaxy_uv(direction), 0.0);
     let plane = Vec2::from(mapping::direction_to_dome(direction));
     let [_, noise, detail, _] = clouds.sample((plane * GRAIN_SCALE).to_array(), uniforms.light[3]);
-    stored * stored * (0.4 + 1.15 * noise + 0.6 * detail)
+    let [plain, of_noise, of_detail, _] = uniforms.grain;
+    stored * stored * (plain + of_noise * noise + of_detail * detail)
 }

@@ -2,7 +2,8 @@
 
 use glam::{Vec2, Vec3};
 use welkin_runtime::lit::{
-    AMBIENT, FINER, FINER_RELIEF, FINER_START, LEAST_STRETCH, SHADED_BY_LAYER,
+    AMBIENT, BLUR, BLUR_LEVEL, FINER, FINER_RELIEF, FINER_START, LEAST_STRETCH, LONGEST_WAY,
+    SHADED_BY_LAYER,
 };
 use welkin_runtime::params::LAYERS_AN_ITERATION;
 use welkin_runtime::uniforms::{LitLayerUniforms, LitUniforms};
@@ -68,7 +69,7 @@ pub struct Cloud {
     pub falls: f32,
     /// Its opacity.
     pub opacity: f32,
-    /// What other cloud of the layer leaves of the light.
+    /// What the layer's cloud leaves of the light.
     pub shade: f32,
 }
 
@@ -85,6 +86,13 @@ pub fn clouds(inputs: &Inputs, place: impl Fn(usize) -> (Vec2, f32)) -> Vec<Clou
         clouds.push(cloud(inputs, index, plane, level, grain));
     }
     clouds
+}
+
+/// The places of the plane whose shade is blurred to that of the first: on the straight line to where sun or moon is seen.
+pub fn places(lit: &LitUniforms, index: usize, plane: Vec2) -> [Vec2; 3] {
+    let source = Vec2::new(lit.source[0], lit.source[1]);
+    let way = (source - plane).clamp_length_max(LONGEST_WAY);
+    [0.0, 1.0, 2.0].map(|step| plane + way * (step * lit.layers[index].sun[0]))
 }
 
 /// Where a layer is read.
@@ -118,8 +126,18 @@ fn grain_at(inputs: &Inputs, lowest: usize, plane: Vec2, level: f32) -> Grain {
 
 fn cloud(inputs: &Inputs, index: usize, plane: Vec2, level: f32, grain: Grain) -> Cloud {
     let layer = &inputs.uniforms.lit.layers[index];
-    let uv = uv(layer, plane).to_array();
-    let [falls, _, thin, shade] = inputs.map[index].sample(uv, level + layer.sun[2]);
+    let at = uv(layer, plane).to_array();
+    let [falls, _, thin, own] = inputs.map[index].sample(at, level + layer.sun[2]);
+    let coarse = (level + layer.sun[2]).max(0.0) + BLUR_LEVEL;
+    let shade: f32 = BLUR
+        .iter()
+        .zip(places(&inputs.uniforms.lit, index, plane))
+        .enumerate()
+        .map(|(k, (share, place))| match k {
+            0 => share * own,
+            _ => share * inputs.map[index].sample(uv(layer, place).to_array(), coarse)[3],
+        })
+        .sum();
     let nudges = &inputs.nudges[index * READS..];
     let (falls, thin) = (falls + nudges[0], thin + nudges[1]);
     let share = layer.facing[2];
@@ -182,8 +200,7 @@ mod tests {
             };
             let uniforms = facts.uniforms(&params, &camera, 0.0, 0.0);
             let lit = &uniforms.lit;
-            let [falls, _, _, shade] =
-                lit_map::texel(lit, &lit.layers[0], &[[0.5; 4]; lit_map::PLACES]);
+            let [falls, _, _, shade] = lit_map::texel(lit, &lit.layers[0], [0.5; 4]);
             let count = 360;
             let mean = (0..count)
                 .map(|i| {

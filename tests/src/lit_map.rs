@@ -1,18 +1,15 @@
 //! Twin of lit_map.wgsl: each layer of the map, and what texture units may make of it.
 
 use welkin_pack::{Image, LayerKind, Pack, Role};
-use welkin_runtime::lit_map::{LEAST_UP, STEP_LEVEL, STEPS, WEIGHTS};
+use welkin_runtime::lit_map::{LEAST_UP, WEIGHTS};
 use welkin_runtime::params::MAX_LAYERS;
 use welkin_runtime::uniforms::{LitLayerUniforms, LitUniforms};
 
 use crate::texture::{Texture, mix, smoothstep};
 
-/// Places on the way towards the sun, with the one that is shaded.
-pub(crate) const PLACES: usize = STEPS as usize + 1;
-
 /// Level 0 of each layer in use, not rounded: light that falls on the cloud, amount, opacity, shade. `kinds` are the pack's layers.
 pub fn render(lit: &LitUniforms, kinds: &[Texture]) -> Vec<Image> {
-    map(lit, kinds, |layer, _, reads| texel(lit, layer, &reads))
+    map(lit, kinds, |layer, _, read| texel(lit, layer, read))
 }
 
 /// What each texel of level 0 may be off by, in bytes.
@@ -34,20 +31,20 @@ pub fn bounds(lit: &LitUniforms, kinds: &[Texture]) -> Vec<Image> {
 /// where every read is off the same way. For the light that falls on a cloud its normal is moved all ways.
 fn changes(lit: &LitUniforms, kinds: &[Texture], off: &[f32]) -> Vec<Image> {
     const WAYS: [f32; 3] = [-1.0, 0.0, 1.0];
-    map(lit, kinds, |layer, index, reads| {
-        let here = texel(lit, layer, &reads);
+    map(lit, kinds, |layer, index, read| {
+        let here = texel(lit, layer, read);
         let mut most = [0.0_f32; 4];
         let mut farthest = |channel: usize, there: f32| {
             most[channel] = most[channel].max((there - here[channel]).abs());
         };
         for way in WAYS {
             let by = way * off[index];
-            let [_, amount, opacity, shade] = texel(lit, layer, &reads.map(|r| r.map(|c| c + by)));
+            let [_, amount, opacity, shade] = texel(lit, layer, read.map(|c| c + by));
             farthest(1, amount);
             farthest(2, opacity);
             farthest(3, shade);
             for other in WAYS {
-                let [x, y, ..] = reads[0];
+                let [x, y, ..] = read;
                 farthest(0, falls(lit, layer, [x + by, y + other * off[index]]));
             }
         }
@@ -127,12 +124,11 @@ pub fn even(blend: f32) -> f32 {
     (triangle(blend) - outside + triangle(blend - larger - smaller)) / (larger * smaller)
 }
 
-/// An image a layer of what follows from the blended reads of the pack's texture, from a place up to the farthest towards the
-/// sun.
+/// An image a layer of what follows from the blended read of the pack's texture.
 fn map(
     lit: &LitUniforms,
     kinds: &[Texture],
-    texel: impl Fn(&LitLayerUniforms, usize, [[f32; 4]; PLACES]) -> [f32; 4],
+    texel: impl Fn(&LitLayerUniforms, usize, [f32; 4]) -> [f32; 4],
 ) -> Vec<Image> {
     let [_, _, count, side] = lit.dome;
     let layers = lit.layers.iter().take(count as usize).enumerate();
@@ -142,12 +138,7 @@ fn map(
         for (i, out) in image.texels.chunks_exact_mut(4).enumerate() {
             let place = |i: usize| (i as f32 + 0.5) / side;
             let [x, y] = [i % side as usize, i / side as usize].map(place);
-            let reads = std::array::from_fn(|k| {
-                let [step_x, step_y, ..] = layer.sun.map(|step| k as f32 * step);
-                let level = if k == 0 { 0.0 } else { STEP_LEVEL };
-                blend(layer, kind, [x + step_x, y + step_y], level)
-            });
-            out.copy_from_slice(&texel(layer, index, reads));
+            out.copy_from_slice(&texel(layer, index, blend(layer, kind, [x, y])));
         }
         image
     };
@@ -155,30 +146,21 @@ fn map(
 }
 
 /// Both reads of the pack's texture: normal, density, rank.
-fn blend(layer: &LitLayerUniforms, kind: &Texture, [u, v]: [f32; 2], level: f32) -> [f32; 4] {
+fn blend(layer: &LitLayerUniforms, kind: &Texture, [u, v]: [f32; 2]) -> [f32; 4] {
     let [_, _, away_u, away_v] = layer.place;
-    let [here, other] = [[u, v], [u + away_u, v + away_v]].map(|uv| kind.sample(uv, level));
+    let [here, other] = [[u, v], [u + away_u, v + away_v]].map(|uv| kind.sample(uv, 0.0));
     mix(here, other, WEIGHTS[1])
 }
 
-/// What the blended reads of a place, and of those towards the sun, make of a texel.
-pub(crate) fn texel(
-    lit: &LitUniforms,
-    layer: &LitLayerUniforms,
-    reads: &[[f32; 4]; PLACES],
-) -> [f32; 4] {
+/// What the blended read of a place makes of a texel.
+pub(crate) fn texel(lit: &LitUniforms, layer: &LitLayerUniforms, read: [f32; 4]) -> [f32; 4] {
     let [cut, to_opaque, _, deepening] = layer.shape;
-    let [x, y, _, rank] = reads[0];
+    let [x, y, density, rank] = read;
     let amount = even(rank);
     // Equation 5. Under an overcast the cut is below 0, and what lies under 0 does not shade.
-    let thick = |read: &[f32; 4]| (even(read[3]) - cut.max(0.0)).max(0.0) * (0.5 + read[2]);
-    let near_counts_most = (1..=PLACES).rev().zip(reads);
-    let sum: f32 = near_counts_most
-        .map(|(weight, read)| weight as f32 * thick(read))
-        .sum();
-    let weights = (1..=PLACES).sum::<usize>() as f32;
+    let thick = (amount - cut.max(0.0)).max(0.0) * (0.5 + density);
     // What a thickness leaves of the light, so often as the exponent says.
-    let left = libm::exp2f(-deepening * sum / weights);
+    let left = libm::exp2f(-deepening * thick);
     [
         falls(lit, layer, [x, y]),
         amount,
@@ -228,7 +210,7 @@ mod tests {
             facing: [0.6, 0.25, 0.0, 1.0],
             ..Default::default()
         };
-        let [falls, amount, opacity, shade] = texel(&lit, &layer, &[[0.8, 0.5, 0.25, 0.5]; PLACES]);
+        let [falls, amount, opacity, shade] = texel(&lit, &layer, [0.8, 0.5, 0.25, 0.5]);
         // A normal of (0.6, 0, 0.8).
         assert!((falls - (0.36 + 0.8 * 0.5)).abs() < 1e-6);
         assert!((amount - 0.5).abs() < 1e-6);
@@ -236,7 +218,7 @@ mod tests {
         assert!((opacity - 27.0 / 32.0).abs() < 1e-5);
         // 0.3 of thickness times 0.75 of density times 0.8, twice.
         assert!((shade - libm::exp2f(-2.0 * 0.8 * 0.3 * 0.75)).abs() < 1e-5);
-        let [_, _, clear, bright] = texel(&lit, &layer, &[[0.0, 0.5, 0.25, 0.1]; PLACES]);
+        let [_, _, clear, bright] = texel(&lit, &layer, [0.0, 0.5, 0.25, 0.1]);
         assert_eq!([clear, bright], [0.0, 1.0], "no cloud, no shade");
     }
 }

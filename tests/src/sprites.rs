@@ -160,7 +160,8 @@ fn corner(
     let uniforms = inputs.uniforms;
     let tint = clouds::tint(&uniforms.clouds, inputs.clouds, direction);
     let light = ambient + sun * Vec3::ONE.lerp(xyz(uniforms.clouds.tint), tint);
-    let from_cloud = (instance.from_cloud_m() + offset).length() / instance.cloud_radius_m();
+    let [from_cloud, centre] = [offset, Vec3::ZERO]
+        .map(|offset| (instance.from_cloud_m() + offset).length() / instance.cloud_radius_m());
     let rim = rim(own.fade, middle.length());
     let clear = clearness(own.air, inputs.view.viewer[0], place) * rim;
     let flash = (place - xyz(own.flash_place)) * own.flash_place[3];
@@ -169,7 +170,7 @@ fn corner(
     Corner {
         light: (light + flash) * clear + behind * (1.0 - clear),
         relief: light * clear * own.sun[3],
-        opacity: opacity * formation::opacity(amount, from_cloud) * level.w,
+        opacity: opacity * formation::opacity(amount, from_cloud, centre) * level.w,
     }
 }
 

@@ -202,6 +202,46 @@ fn the_flare_is_the_twins() {
     }
 }
 
+/// The most that light differs around the sun, over the brightest: of pixels that are as far from it to a quarter of a pixel.
+fn spread_around(picture: &[Vec3], side: usize) -> f32 {
+    let mut rings = vec![[f32::MAX, f32::MIN]; 4 * side];
+    for (i, light) in picture.iter().enumerate() {
+        let away = Vec2::new((i % side) as f32, (i / side) as f32) - 0.5 * (side as f32 - 1.0);
+        let [least, most] = &mut rings[(4.0 * away.length()) as usize];
+        (*least, *most) = (least.min(light.y), most.max(light.y));
+    }
+    let brightest = picture.iter().map(|light| light.y).fold(0.0, f32::max);
+    let spreads = rings.iter().map(|[least, most]| most - least);
+    spreads.fold(0.0, f32::max) / brightest
+}
+
+/// With the sun in the middle of the screen all pictures lie about it. They are round, as the paper has them; the starburst, which is
+/// not, comes where it is asked for.
+#[test]
+fn the_flare_is_round_unless_a_starburst_is_asked_for() {
+    let pack = pack::default_pack();
+    let mut sky = gpu::sky(pack, FORMAT);
+    let side = 301;
+    let (view, _) = beside_the_sun(pack, [0.0, 0.0], [side; 2]);
+    let clear = params(Method::Packed, 0.0);
+    assert!(!SkyParams::default().starburst, "a disc by default");
+    let [round, star] = [false, true].map(|starburst| {
+        let params = SkyParams {
+            starburst,
+            sun: false,
+            ..clear
+        };
+        spread_around(&added(&mut sky, &params, &view, 0.0), side as usize)
+    });
+    println!("round {round:.3}, starburst {star:.3}");
+    // The sharpest edge, of the disc, is 2.4 pixels wide here: over a quarter of a pixel it falls by a tenth.
+    assert!(round < 0.1, "{round}");
+    assert!(
+        star > 0.1,
+        "the same number tells what is not round: {star}"
+    );
+}
+
 #[test]
 fn nothing_is_drawn_without_a_sun_in_view() {
     let pack = pack::default_pack();

@@ -258,7 +258,12 @@ fn sun_flare_and_stars_can_be_left_out() {
     let towards_the_sun = ["--cover", "0", "--azimuth", "180", "--elevation", "50"];
     each_option_changes(
         &towards_the_sun,
-        &[&["--no-sun"], &["--flare", "0"], &["--flare", "0.5"]],
+        &[
+            &["--no-sun"],
+            &["--flare", "0"],
+            &["--flare", "0.5"],
+            &["--starburst"],
+        ],
     );
     // As many stars as a small texture has: a wide view of a clear night holds some.
     let night = ["--cover", "0", "--time", "0", "--fov", "120"];

@@ -31,6 +31,10 @@ export interface Settings {
   speed?: number;
   /** Time of day, 0 to 1: 0 midnight, 0.25 sunrise, 0.5 noon, 0.75 sunset. */
   time?: number;
+  /** Layers of clouds of the method `lit`, `KIND[:SHARE[:HEIGHT[:EAST:SOUTH]]]` between commas; EAST and SOUTH are a velocity in metres a second. */
+  layers?: string;
+  /** Whether the lens flare's picture of the sun is a starburst instead of a disc. */
+  starburst?: boolean;
   /** Moment of the animation in seconds, 0 to 1e9. */
   at?: number;
   /** Where one looks, in degrees from north (0) towards east (90), -360 to 360. */

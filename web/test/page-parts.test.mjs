@@ -55,7 +55,7 @@ test('hours and colours read as people write them', () => {
 });
 
 test('layers come back', () => {
-  const text = 'cumulus:0.7:1.2,cirrus:0.3:6';
+  const text = 'cumulus:0.7:1.2:-12.5:3,cirrus:0.3:6:60:110';
   assert.equal(writeLayers(readLayers(text)), text);
   assert.equal(writeLayers([{ kind: 'cirrus', share: '0.5', height: undefined }]), 'cirrus:0.5');
 });

@@ -94,7 +94,7 @@ test('a weather comes over seconds and is pressed when it is there', () => brows
 }));
 
 test('a link restores the settings and the picture exactly', async () => {
-  const pairs = { method: 'lit', cover: '0.437', layers: 'cumulus:0.7:1.3,cirrus:0.3:6.2', k1: '0.31', sky: 'perez', cie: '12', time: '0.31', at: '123.25', azimuth: '77.5', fov: '48', rays: '0.5' };
+  const pairs = { method: 'lit', cover: '0.437', layers: 'cumulus:0.7:1.3:36:18,cirrus:0.3:6.2:-40:12.5', k1: '0.31', sky: 'perez', cie: '12', time: '0.31', at: '123.25', azimuth: '77.5', fov: '48', rays: '0.5' };
   let [link, before_] = ['', null];
   await browser.visit({ search: `?${new URLSearchParams({ ...pairs, paused: 'true' })}` }, async (page) => {
     before_ = await picture(page);
@@ -190,10 +190,10 @@ test('layers are added, changed and taken away', () => browser.visit({ search: '
   await rows.nth(1).waitFor();
   assert.equal(await rows.count(), 2);
   await rows.nth(1).locator('select').selectOption('cirrus');
-  await page.waitForFunction(() => /cumulus:0.5:1,cirrus:0.5:/.test(new URLSearchParams(location.search).get('layers')));
+  await page.waitForFunction(() => /cumulus:0.5:1:36:18,cirrus:0.5:/.test(new URLSearchParams(location.search).get('layers')));
   await rows.nth(0).locator('input[type=range]').focus();
   await page.keyboard.press('ArrowLeft');
-  await page.waitForFunction(() => new URLSearchParams(location.search).get('layers').startsWith('cumulus:0.49:1,'));
+  await page.waitForFunction(() => new URLSearchParams(location.search).get('layers').startsWith('cumulus:0.49:1:'));
   await page.click('[aria-label="Remove layer 1"]');
   await page.waitForFunction(() => new URLSearchParams(location.search).get('layers').startsWith('cirrus:'));
 }));

@@ -8,6 +8,7 @@ mod handover;
 mod info;
 mod input;
 mod interrupt;
+mod model;
 mod output;
 mod page;
 mod photo;
@@ -45,6 +46,8 @@ enum Command {
     Unpack(UnpackArgs),
     /// Make a photograph into a seamless cloud channel
     Photo(PhotoArgs),
+    /// Write a cloud of the field as a model: every sprite a node, to be edited and baked again
+    Model(ModelArgs),
     /// Look at a pack in a window (needs welkin-view)
     #[command(disable_help_flag = true)]
     View(ViewArgs),
@@ -142,6 +145,18 @@ struct PhotoArgs {
 }
 
 #[derive(Debug, Args)]
+struct ModelArgs {
+    /// Folder of the pack
+    pack: PathBuf,
+    /// Number of the cloud in the field, from 0, in the order of their ranks
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    cloud: usize,
+    /// Binary glTF to write; a file of that name is replaced
+    #[arg(short, long, value_name = "CLOUD.glb")]
+    output: PathBuf,
+}
+
+#[derive(Debug, Args)]
 struct ViewArgs {
     /// Handed to welkin-view as they are
     #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
@@ -191,6 +206,7 @@ fn make(command: Command) -> anyhow::Result<ExitCode> {
         Command::Preview(args) => preview::run(&args)?,
         Command::Unpack(args) => unpack::run(&args)?,
         Command::Photo(args) => photo::run(&args)?,
+        Command::Model(args) => model::run(&args)?,
         _ => {}
     }
     Ok(ExitCode::SUCCESS)

@@ -40,6 +40,7 @@ pub(crate) fn default_box() -> BoxSettings {
         group: 0,
         flat_bottom: false,
         cull: 1.0 / 3.0,
+        by_hand: Vec::new(),
     }
 }
 

@@ -38,14 +38,19 @@ pub(super) fn cloud(plan: &Plan, stream: &mut Stream) -> Cloud {
     };
     drop_empty_boxes(&mut cloud);
     (cloud.centre_m, cloud.size_m) = bounds(&cloud.boxes);
-    let centres = (0..groups.len()).map(|group| {
-        let of_group = cloud.boxes.iter().filter(|b| usize::from(b.group) == group);
+    cloud.groups_m = centres(&cloud.boxes, groups.len());
+    cloud
+}
+
+/// The middles of so many shading groups.
+pub(super) fn centres(boxes: &[CloudBox], count: usize) -> Vec<[f32; 3]> {
+    let centre = |group: usize| {
+        let of_group = boxes.iter().filter(|b| usize::from(b.group) == group);
         let (centre, _) = bounds(&of_group.copied().collect::<Vec<_>>());
         // A metre is nothing to a shade, and its text is shorter.
         centre.map(libm::roundf)
-    });
-    cloud.groups_m = centres.collect();
-    cloud
+    };
+    (0..count).map(centre).collect()
 }
 
 /// The numbers of the shading groups, each once, in order.

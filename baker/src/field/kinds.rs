@@ -103,6 +103,7 @@ impl Look {
             group,
             flat_bottom: false,
             cull: 0.0,
+            by_hand: Vec::new(),
         }
     }
 }

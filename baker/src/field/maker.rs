@@ -4,13 +4,15 @@
 //! of the ground that is below clouds when half of it is added: then showing the clouds whose rank is at most `c` covers the
 //! share `c`, to half a cloud. Layers go on where the one before has ended.
 
+use std::f32::consts::FRAC_PI_2;
+
 use welkin_pack::Field;
 use welkin_pack::field::Cloud;
 
 use super::cloud::{self, Plan};
 use super::ground::{Ground, SEEN};
 use super::spread::Spread;
-use super::{kinds, model};
+use super::{clumps, kinds, model};
 use crate::error::BakeError;
 use crate::inputs::{Named, Reader};
 use crate::settings::{BoxSettings, CloudLayerSettings, FieldSettings, ModelSettings, ModelSource};
@@ -118,6 +120,8 @@ struct Order<'a> {
     rank: Option<f32>,
     /// Whether boxes that are not needed may be left out: not an artist's.
     is_piece: bool,
+    /// Whether clumps are joined to shading groups: an artist's are as they are.
+    joins_clumps: bool,
 }
 
 struct Maker {
@@ -137,6 +141,7 @@ impl Maker {
             name,
             rank: None,
             is_piece: kinds::is_sheet(layer.kind),
+            joins_clumps: true,
         };
         let mut number = 0;
         while self.ground.share() < layer.cover.min(FULL) {
@@ -163,6 +168,7 @@ impl Maker {
             name,
             rank: model.rank,
             is_piece: false,
+            joins_clumps: false,
         };
         for number in 0..model.copies {
             let stream = &mut Stream::new(self.seed, &format!("{name}.{number}"));
@@ -173,7 +179,7 @@ impl Maker {
             };
             let boxes: Vec<BoxSettings> = boxes
                 .iter()
-                .map(|of_model| turned(of_model, turn, model.base_m))
+                .map(|of_model| turned(of_model, turn, model))
                 .collect();
             let plan = Plan {
                 kind: model.kind,
@@ -201,6 +207,9 @@ impl Maker {
             if piece.sprites.len() >= LEAST_SPRITES {
                 cloud = piece;
             }
+        }
+        if order.joins_clumps {
+            clumps::join(&mut cloud);
         }
         self.count(order.name, &cloud)?;
         cloud::move_to(&mut cloud, place);
@@ -270,14 +279,25 @@ fn needed(boxes: &[BoxSettings], [x, z]: [f32; 2], ground: &Ground) -> Vec<BoxSe
         .collect()
 }
 
-/// A box of a model after quarter turns about the vertical axis, from its origin at `base_m` above the sea.
-fn turned(of_model: &BoxSettings, quarters: u64, base_m: f32) -> BoxSettings {
+/// A box of a model after quarter turns about the vertical axis, from its origin at the model's base above the sea. What lies flat
+/// turns with it; what faces the viewer does so after any turn.
+fn turned(of_model: &BoxSettings, quarters: u64, model: &ModelSettings) -> BoxSettings {
     let mut turned = of_model.clone();
+    let quarter = |[x, y, z]: [f32; 3]| [z, y, 0.0 - x];
     for _ in 0..quarters {
-        let ([x, y, z], [width, height, depth]) = (turned.centre_m, turned.size_m);
-        turned.centre_m = [z, y, 0.0 - x];
+        turned.centre_m = quarter(turned.centre_m);
+        let [width, height, depth] = turned.size_m;
         turned.size_m = [depth, height, width];
+        for sprite in &mut turned.by_hand {
+            sprite.centre_m = quarter(sprite.centre_m);
+            if model.kind.is_flat() {
+                sprite.rotation_rad += FRAC_PI_2;
+            }
+        }
     }
-    turned.centre_m[1] += base_m;
+    turned.centre_m[1] += model.base_m;
+    for sprite in &mut turned.by_hand {
+        sprite.centre_m[1] += model.base_m;
+    }
     turned
 }

@@ -1,19 +1,26 @@
-//! An artist's model: a glTF file whose mesh nodes are boxes.
+//! An artist's model: a glTF file whose mesh nodes are boxes, or sprites that are placed one by one.
 //!
 //! Khronos Group, "glTF 2.0 Specification", 2021. A box is the bounds of a node's mesh, as its accessors tell them, after the
-//! transforms of the node and of those above it; so no buffer is read. Its custom properties, `extras`, say the rest.
+//! transforms of the node and of those above it; so no buffer is read. Its custom properties, `extras`, say the rest. A node
+//! with the property `cell` is a sprite (`sprites.rs`); [`cloud_model`] writes a cloud in that way, for an artist to edit and to bake again.
 
 mod extras;
+mod sprites;
 #[cfg(test)]
 mod tests;
+mod write;
+
+use std::collections::BTreeMap;
 
 use gltf::{Document, Gltf, Node, Semantic};
 
 use super::boxes::{self, Fault, PLACES_M, SIZES_M};
 use super::cloud::groups;
 use crate::error::BakeError;
-use crate::settings::BoxSettings;
+use crate::settings::{BoxSettings, PlacedSprite};
 use welkin_pack::limits::MAX_GROUPS;
+
+pub use write::cloud_model;
 
 /// The largest file: boxes take a few kilobytes.
 pub(crate) const MAX_BYTES: u64 = 16 << 20;
@@ -50,10 +57,14 @@ pub(crate) fn boxes(bytes: &[u8], file: &str) -> Result<Vec<BoxSettings>, BakeEr
         file,
         nodes: 0,
         boxes: Vec::new(),
+        by_hand: BTreeMap::new(),
     };
     for node in scene.nodes() {
         visit.node(&node, &IDENTITY, 0)?;
     }
+    let by_hand = visit.by_hand.iter();
+    let by_hand = by_hand.flat_map(|(group, placed)| sprites::boxes(*group, placed));
+    visit.boxes.extend(by_hand);
     if visit.boxes.is_empty() {
         let expected = "boxes: nodes of the scene that have a mesh";
         return Err(unfit("nodes", "without a mesh".to_string(), expected));
@@ -109,6 +120,8 @@ struct Visit<'a> {
     file: &'a str,
     nodes: usize,
     boxes: Vec<BoxSettings>,
+    /// Sprites that are placed one by one, by their shading group.
+    by_hand: BTreeMap<u32, Vec<PlacedSprite>>,
 }
 
 impl Visit<'_> {
@@ -121,8 +134,13 @@ impl Visit<'_> {
         }
         let matrix = product(above, &node.transform().matrix());
         if node.mesh().is_some() {
-            let of_node = self.cloud_box(node, &matrix)?;
-            self.boxes.push(of_node);
+            match sprites::read(self.file, node, &matrix)? {
+                Some((group, placed)) => self.by_hand.entry(group).or_default().push(placed),
+                None => {
+                    let of_node = self.cloud_box(node, &matrix)?;
+                    self.boxes.push(of_node);
+                }
+            }
         }
         let mut children = node.children();
         children.try_for_each(|child| self.node(&child, &matrix, depth + 1))

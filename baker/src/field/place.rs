@@ -1,4 +1,4 @@
-//! Random sprites in a box.
+//! Sprites in a box: random ones, or those that an artist has placed.
 
 use std::f32::consts::PI;
 
@@ -6,7 +6,7 @@ use welkin_pack::SheetCell;
 use welkin_pack::field::{Category, CloudBox, Sprite, rounded_rotation};
 
 use super::snapped;
-use crate::settings::BoxSettings;
+use crate::settings::{BoxSettings, PlacedSprite};
 use crate::sprites::FLOOR;
 use crate::stream::Stream;
 
@@ -24,16 +24,31 @@ const FLAT_TURN_RAD: f32 = 3.0 * PI / 180.0;
 
 /// As many sprites as the box asks for, before the cull. `stored` is the box as the pack will have it.
 ///
-/// Centres are even over the box. Width and height grow together from their least to their most.
+/// Centres are even over the box. Width and height grow together from their least to their most. What was placed by hand is as it is, on the
+/// grid.
 pub(super) fn sprites(
     settings: &BoxSettings,
     stored: &CloudBox,
     index: u16,
     stream: &mut Stream,
 ) -> Vec<Sprite> {
+    if !settings.by_hand.is_empty() {
+        let placed = settings.by_hand.iter();
+        return placed.map(|own| by_hand(own, index)).collect();
+    }
     (0..settings.sprites)
         .map(|_| sprite(settings, stored, index, stream))
         .collect()
+}
+
+fn by_hand(own: &PlacedSprite, index: u16) -> Sprite {
+    Sprite {
+        centre_m: own.centre_m.map(snapped),
+        size_m: own.size_m.map(|side| snapped(side).max(0.125)),
+        rotation_rad: rounded_rotation(own.rotation_rad),
+        cell: own.cell,
+        cloud_box: index,
+    }
 }
 
 fn sprite(settings: &BoxSettings, stored: &CloudBox, index: u16, stream: &mut Stream) -> Sprite {

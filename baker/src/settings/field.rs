@@ -125,6 +125,21 @@ pub struct BoxSettings {
     pub flat_bottom: bool,
     /// Cull distance as a share of the sprites' mean height, 0..1.
     pub cull: f32,
+    /// Sprites that the artist placed one by one: where there are any, they are all that is in the box, and nothing is random.
+    pub by_hand: Vec<PlacedSprite>,
+}
+
+/// A sprite that an artist has placed. Lengths in metres, places from the origin of its cloud, as of a box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedSprite {
+    /// Its middle.
+    pub centre_m: [f32; 3],
+    /// Width and height.
+    pub size_m: [f32; 2],
+    /// How far it is turned: see [`Sprite::rotation_rad`].
+    pub rotation_rad: f32,
+    /// Its picture: see [`Sprite::cell`].
+    pub cell: u8,
 }
 
 impl BoxSettings {

@@ -1,42 +1,9 @@
 //! The recipes of fields, one a kind and some more: sound by the rules of `welkin check`, and each as it is meant.
 
-use welkin_pack::check::{Outcome, check};
 use welkin_pack::field::{Category, Cloud, CloudKind};
-use welkin_pack::{Field, Pack, PackInfo, SheetCell, SheetKind};
+use welkin_pack::{Field, SheetCell, SheetKind};
 
-use super::{field, recipe_field};
-
-/// What the rules about fields have against one.
-fn problems(field: &Field) -> Vec<String> {
-    let info = PackInfo {
-        name: "field".to_string(),
-        seed: 1,
-        baker: "test".to_string(),
-        recipe: String::new(),
-        inputs: Vec::new(),
-        noon_elevation_rad: 1.0,
-        ..PackInfo::default()
-    };
-    let pack = Pack::build(info, Vec::new()).unwrap();
-    let pack = pack.with_field(field.clone()).unwrap();
-    assert_eq!(
-        pack.field(),
-        Some(field),
-        "what is baked is on the grid of what is stored"
-    );
-    let folder = tempfile::tempdir().unwrap();
-    for (name, bytes) in pack.files() {
-        std::fs::write(folder.path().join(name), bytes).unwrap();
-    }
-    let report = check(folder.path()).unwrap();
-    let of_field = report
-        .findings
-        .iter()
-        .filter(|f| f.rule.starts_with("field-"));
-    assert!(of_field.clone().count() >= 10);
-    let problems = of_field.filter(|f| f.outcome != Outcome::Passed);
-    problems.map(ToString::to_string).collect()
-}
+use super::{field, problems, recipe_field};
 
 #[test]
 fn every_recipe_of_the_folder_makes_a_sound_field_without_a_warning() {
@@ -122,6 +89,7 @@ fn pictures_are_those_that_the_article_uses() {
     };
     assert!(share("stratus.toml", SheetKind::Foggy) > 0.6);
     assert!(share("stratus.toml", SheetKind::Wispy) > 0.1);
+    assert!(share("stratocumulus.toml", SheetKind::Foggy) > 0.1);
     assert!(share("cumulus.toml", SheetKind::Puffy) > 0.6);
     assert!((0.01..0.3).contains(&share("cumulus.toml", SheetKind::Wispy)));
     assert_eq!(share("cirrus.toml", SheetKind::Wispy), 1.0);
@@ -152,6 +120,65 @@ fn an_overcast_sky_has_a_hundred_thousand_sprites_in_sight() {
     let sections = (field.sections * field.sections) as usize;
     // Within 30 km are 30^2 pi / 16 = 177 sections.
     assert!(field.sprite_count() * 177 / sections >= 100_000);
+}
+
+#[test]
+fn every_picture_of_the_sheet_is_in_the_default_field() {
+    let field = field("");
+    for cell in 0..SheetCell::COUNT {
+        let mut sprites = field.clouds.iter().flat_map(|cloud| &cloud.sprites);
+        assert!(sprites.any(|sprite| sprite.cell == cell), "{cell}");
+    }
+}
+
+/// Sprites of each shading group of clouds that have two groups of thirty or more.
+fn group_sizes(field: &Field) -> Vec<usize> {
+    let large = field.clouds.iter().filter(|c| c.sprites.len() >= 60);
+    let sizes = large.flat_map(|cloud| {
+        let mut sizes = vec![0; cloud.groups_m.len()];
+        for sprite in &cloud.sprites {
+            sizes[usize::from(cloud.boxes[usize::from(sprite.cloud_box)].group)] += 1;
+        }
+        sizes
+    });
+    sizes.collect()
+}
+
+/// The article's groups are of some 30 sprites; a cloud of fewer is one.
+#[test]
+fn shading_groups_have_about_thirty_sprites() {
+    for name in ["", "congestus.toml", "cumulonimbus.toml", "overcast.toml"] {
+        let field = if name.is_empty() {
+            field("")
+        } else {
+            recipe_field(name)
+        };
+        for cloud in &field.clouds {
+            let groups = cloud.groups_m.len();
+            assert!(groups == 1 || cloud.sprites.len() >= 45, "{name}: {groups}");
+            let filled = (0..groups).all(|g| cloud.boxes.iter().any(|b| usize::from(b.group) == g));
+            assert!(filled, "{name}: every group has a box");
+        }
+        let sizes = group_sizes(&field);
+        let mean = sizes.iter().sum::<usize>() as f32 / sizes.len().max(1) as f32;
+        println!("{name}: {} groups of {mean} sprites", sizes.len());
+        assert!(
+            sizes.is_empty() || (24.0..38.0).contains(&mean),
+            "{name}: {mean}"
+        );
+    }
+}
+
+#[test]
+fn an_artists_shading_groups_are_as_the_artist_says() {
+    let of_box = |x: i32, group: u32| {
+        format!(
+            "[[field.models.boxes]]\ncentre_m = [{x}, 100, 0]\nsize_m = [600, 200, 600]\nsprites = 8\ngroup = {group}\n"
+        )
+    };
+    let boxes: String = (0..3).map(|i| of_box(900 * i, i as u32)).collect();
+    let cloud = &field(&format!("[[field.models]]\nkind = \"cumulus\"\n{boxes}")).clouds[0];
+    assert_eq!(cloud.groups_m.len(), 3);
 }
 
 #[test]

@@ -86,7 +86,7 @@ pub const fn count(
     }
 }
 
-/// On or off; `flag` is the option for off.
+/// On or off; `flag` is the option for what is not usual.
 pub const fn switch(
     name: &'static str,
     label: &'static str,
@@ -96,7 +96,7 @@ pub const fn switch(
 ) -> Key {
     Key {
         input: Input::Switch,
-        option: CommandOption::Unless(flag),
+        option: CommandOption::Flag(flag),
         slot: Slot::Switch(place),
         ..number(name, label, help, Group::Light, [0.0; 2], "", |s| {
             &mut s.rate

@@ -13,7 +13,8 @@ pub struct SpriteParams {
     pub distance_m: f32,
     /// Radius of the ring of impostors: blocks beyond it are drawn as pictures. In metres, 0 (no ring) or 4000..=60000.
     pub ring_radius_m: f32,
-    /// Distance beyond which a cloud is one billboard, in metres, 2000..=60000.
+    /// Distance beyond which a cloud is one billboard, in metres, 2000..=60000. By default it is so where a cloud of a kilometre has hardly more
+    /// than a dozen texels in a picture of the ring.
     pub billboards_beyond_m: f32,
     /// The most that a cloud may have formed, 0 (nothing) to 1 (whole).
     pub formation: f32,
@@ -26,7 +27,7 @@ impl Default for SpriteParams {
             behind_cover: 0.0,
             distance_m: 30_000.0,
             ring_radius_m: 12_000.0,
-            billboards_beyond_m: 60_000.0,
+            billboards_beyond_m: 24_000.0,
             formation: 1.0,
         }
     }

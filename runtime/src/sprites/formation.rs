@@ -1,9 +1,14 @@
 //! How far each cloud has formed.
 //!
 //! # Theory
-//! Wang, "Formation and Dissipation" and listing 1: opacity is `alpha_of_cloud - alpha_at_edges * place`, with `place` the
-//! distance from the cloud's middle over its radius. A cloud that dissolves loses its edges first (`alpha_at_edges` grows from 0 to 1),
-//! then its core (`alpha_of_cloud` falls from 1 to 0); one that forms goes the other way.
+//! Wang, "Formation and Dissipation": a cloud that forms begins with the sprites whose centre is within half its radius; when those have
+//! reached a threshold of opacity, the others begin. Listing 1: opacity of a vertex is `alpha_of_cloud - alpha_at_edges * place`, with
+//! `place` its distance from the cloud's middle over its radius. A cloud that dissolves loses its edges first (`alpha_at_edges` grows
+//! from 0 to 1), then its core (`alpha_of_cloud` falls from 1 to 0); one that forms goes the other way.
+//!
+//! Both together: in the first stage `alpha_of_cloud` rises and only sprites within half the radius show, the least of them, at that
+//! half, by then with an opacity of 1/2: that is the threshold. In the second `alpha_at_edges` falls, and the others show as far as it
+//! has fallen.
 //!
 //! # Changes versus the paper
 //! - The listing measures `place` from the edge inwards, by which the core would go first; its text and its heading say the edges do, and
@@ -43,11 +48,19 @@ fn swing(index: usize, cover: f32, seconds: f64) -> f32 {
     SWING * 4.0 * cover * (1.0 - cover) * wave
 }
 
-/// Listing 1, as the shader has it: opacity at a place in a cloud, 0 in its middle, 1 at its radius.
-pub fn opacity(amount: f32, place: f32) -> f32 {
+/// Sprites whose centre is nearer to the middle of their cloud than this share of its radius come first.
+pub const FIRST_STAGE: f32 = 0.5;
+
+/// Opacity of a vertex at a place in its cloud, whose sprite has its centre at another: 0 in the cloud's middle, 1 at its radius.
+pub fn opacity(amount: f32, place: f32, centre: f32) -> f32 {
     let alpha_of_cloud = (2.0 * amount).min(1.0);
     let alpha_at_edges = 1.0 - (2.0 * amount - 1.0).max(0.0);
-    (alpha_of_cloud - alpha_at_edges * place).clamp(0.0, 1.0)
+    let stage = if centre > FIRST_STAGE {
+        1.0 - alpha_at_edges
+    } else {
+        1.0
+    };
+    (alpha_of_cloud - alpha_at_edges * place).clamp(0.0, 1.0) * stage
 }
 
 #[cfg(test)]
@@ -56,18 +69,36 @@ mod tests {
 
     #[test]
     fn the_middle_forms_first_and_dissolves_last() {
-        assert_eq!([opacity(0.0, 0.0), opacity(0.0, 1.0)], [0.0, 0.0]);
-        assert_eq!([opacity(1.0, 0.0), opacity(1.0, 1.0)], [1.0, 1.0]);
+        let at = |amount: f32, place: f32| opacity(amount, place, place);
+        assert_eq!([at(0.0, 0.0), at(0.0, 1.0)], [0.0, 0.0]);
+        assert_eq!([at(1.0, 0.0), at(1.0, 1.0)], [1.0, 1.0]);
         // Half way: the core is whole, the edge is not there yet.
-        assert_eq!([opacity(0.5, 0.0), opacity(0.5, 1.0)], [1.0, 0.0]);
-        assert_eq!(opacity(0.25, 0.0), 0.5);
-        assert_eq!(opacity(0.75, 1.0), 0.5);
+        assert_eq!([at(0.5, 0.0), at(0.5, 1.0)], [1.0, 0.0]);
+        assert_eq!(at(0.25, 0.0), 0.5);
         for step in 0..20 {
             let amount = step as f32 / 20.0;
             for place in [0.0, 0.3, 0.7, 1.0] {
-                assert!(opacity(amount + 0.05, place) >= opacity(amount, place));
-                assert!(opacity(amount, place) <= opacity(amount, 0.0));
+                assert!(at(amount + 0.05, place) >= at(amount, place));
+                assert!(at(amount, place) <= at(amount, 0.0));
             }
+        }
+    }
+
+    #[test]
+    fn sprites_beyond_half_the_radius_wait_until_those_within_are_half_opaque() {
+        for step in 0..=100 {
+            let amount = step as f32 / 100.0;
+            let first = opacity(amount, FIRST_STAGE, FIRST_STAGE);
+            // A vertex of a sprite from beyond reaches into the middle of the cloud.
+            for (place, centre) in [(0.0, 0.51), (0.3, 0.6), (0.6, 0.6), (1.0, 1.0)] {
+                let second = opacity(amount, place, centre);
+                assert_eq!(
+                    second > 0.0,
+                    first > 0.5 && amount > 0.5,
+                    "{amount} {place}"
+                );
+            }
+            assert!(first >= opacity(amount, FIRST_STAGE, 0.51));
         }
     }
 

@@ -56,7 +56,7 @@ fn a_flight_of_300_frames_has_no_leap() {
         (
             0.7,
             DVec3::new(7000.0, 1350.0, 2000.0),
-            DVec3::new(-3.0, 0.0, 3.0),
+            DVec3::new(3.0, 0.0, -3.0),
         ),
     ];
     for (cover, from, step) in flights {

@@ -1,6 +1,7 @@
 //! The ring of impostors: size, likeness, seams, cross-fade, and what it remembers.
 
 use glam::{DVec3, Vec2, Vec3};
+use welkin_runtime::params::MOST_DISTANCE_M;
 use welkin_runtime::sprites::ring::{BYTES, FADE_FRAMES, PICTURES, Ring, Station};
 use welkin_runtime::{Camera, Sky, SkyParams, SpriteParams};
 use welkin_tests::ring::hit;
@@ -57,6 +58,29 @@ fn with_the_ring_the_picture_is_the_same_within_two_percent() {
                 }
             }
         }
+    }
+}
+
+/// By default a far cloud is one sprite: the picture is as like as the ring is to what it stands for, and a third of the sprites and more
+/// need not be drawn into it.
+#[test]
+fn far_clouds_of_one_sprite_are_on_by_default_and_pay() {
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    let ring_radius_m = SpriteParams::default().ring_radius_m;
+    for cover in [0.25, 0.6, 1.0] {
+        let one = at(cover, ring_radius_m);
+        let mut all = one;
+        all.sprites.billboards_beyond_m = MOST_DISTANCE_M;
+        let camera = view(DVec3::from(PLACES[0]), 20.0, 4.0, SIZE);
+        let [(expected, every), (actual, fewer)] = [all, one].map(|params| {
+            sky.forget();
+            let picture = frame(&mut sky, &params, &camera);
+            (picture, sky.sprites_drawn()[1])
+        });
+        let difference = mean_difference(&expected, &actual);
+        println!("cover {cover}: {fewer} of {every} sprites into the ring, {difference:.4}");
+        assert!(3 * fewer < 2 * every, "cover {cover}: {fewer} of {every}");
+        assert!(difference < 0.02, "cover {cover}: {difference}");
     }
 }
 

@@ -5,7 +5,7 @@
 
 use clap::ValueEnum;
 use welkin_pack::LayerKind;
-use welkin_runtime::params::{MAX_LAYERS, MAX_OCTAVES};
+use welkin_runtime::params::{MAX_LAYERS, MAX_OCTAVES, MOST_DISTANCE_M};
 use welkin_runtime::sprites::ring;
 use welkin_runtime::{
     Camera, LitLayer, LitParams, Method, OctaveParams, SkyModel, SkyParams, SpriteParams,
@@ -129,6 +129,8 @@ pub fn scenes_of_sprites(of: SpriteScene, ring: f32) -> [Scene; 4] {
         sprites: SpriteParams {
             distance_m: SPRITE_SIGHT_M,
             ring_radius_m,
+            // Every sprite, however far: what is timed is how many there are.
+            billboards_beyond_m: MOST_DISTANCE_M,
             ..usual.sprites
         },
         ..usual

@@ -113,6 +113,9 @@ pub struct LightArgs {
     /// Strength of the lens flare, 0 (off) to 1
     #[arg(long, value_name = "F", default_value_t = SkyParams::default().flare, value_parser = unit, allow_hyphen_values = true)]
     pub flare: f32,
+    /// Draw the flare's picture of the sun as a starburst, not as a disc
+    #[arg(long)]
+    pub starburst: bool,
     #[arg(long, value_name = "S", value_parser = unit, allow_hyphen_values = true, help = skybox_help())]
     pub skybox: Option<f32>,
     /// Leave out the sun's disc and glow
@@ -195,6 +198,7 @@ impl RenderArgs {
             sun: !self.light.no_sun,
             stars: !self.light.no_stars,
             flare: self.light.flare,
+            starburst: self.light.starburst,
             skybox: self.light.skybox.unwrap_or(SkyParams::default().skybox),
             ..SkyParams::default()
         }

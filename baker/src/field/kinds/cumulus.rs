@@ -16,6 +16,7 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
     foot(base_m, [width, 0.34 * height, depth], look, 1.1, &mut boxes);
     let heaps = whole(stream, 3, 5);
     let first = between(stream, 0.0, 1.0);
+    let mut group = 1;
     for i in 0..heaps {
         // The first in the middle, the others around it.
         let out = if i == 0 {
@@ -38,9 +39,10 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
             top_m: base_m + share * height,
             width_m: width * between(stream, 0.4, 0.52),
             storeys: if i == 0 { 2 } else { 1 },
-            group: 1 + i,
+            group,
         };
         heap.add(look, 1.5, stream, &mut boxes);
+        group += heap.groups();
     }
     boxes.push(fringe(base_m, width, height, stream));
     boxes

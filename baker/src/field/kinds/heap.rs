@@ -14,14 +14,14 @@ pub(super) struct Heap {
     /// Its width below.
     pub width_m: f32,
     pub storeys: u32,
-    /// Its shading group; a heap of many storeys has one for each two of them.
+    /// The clump of its lowest storey; each has one.
     pub group: u32,
 }
 
 impl Heap {
-    /// Shading groups that it has.
+    /// Clumps that it has.
     pub fn groups(&self) -> u32 {
-        self.storeys.div_ceil(2)
+        self.storeys
     }
 
     /// Adds its boxes. Sprites reach beyond a box, so it is that much smaller than what is to be seen.
@@ -38,7 +38,7 @@ impl Heap {
             let side = (width - inset).max(0.5 * width);
             let depth = side * between(stream, 0.85, 1.15);
             let y = self.foot_m + storey * (i as f32 + 0.5);
-            let group = self.group + i / 2;
+            let group = self.group + i;
             // Storeys overlap a little, so that no seam is seen between them; the last ends at the top.
             let overlap = if i + 1 < self.storeys {
                 0.2 * storey

@@ -30,7 +30,7 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
             0.5 * (base_m + top_m) + between(stream, -0.15, 0.15) * thick,
             depth * (place(i / COLUMNS, ROWS) + between(stream, -0.12, 0.12)),
         ];
-        let mut of_sheet = look.in_box(centre, [1.1 * width, thick, 1.1 * depth], i / 3);
+        let mut of_sheet = look.in_box(centre, [1.1 * width, thick, 1.1 * depth], i);
         of_sheet.sprites = 5;
         boxes.push(of_sheet);
     }

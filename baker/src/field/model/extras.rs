@@ -4,6 +4,7 @@ use std::f32::consts::PI;
 
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
+use welkin_pack::SheetCell;
 use welkin_pack::field::Category;
 
 use crate::error::BakeError;
@@ -24,6 +25,34 @@ const KEYS: [&str; 8] = [
     "cull",
 ];
 
+/// The properties of a sprite that is placed by hand.
+const SPRITE_KEYS: [&str; 2] = ["cell", "group"];
+
+/// Picture and shading group of a node that is a sprite: of one with the property `cell`.
+pub(super) fn sprite(
+    extras: Option<&RawValue>,
+    unfit: &Unfit,
+) -> Result<Option<(u8, u32)>, BakeError> {
+    let map = extras.and_then(|e| serde_json::from_str::<Map<String, Value>>(e.get()).ok());
+    let Some(map) = map.filter(|map| map.contains_key("cell")) else {
+        return Ok(None);
+    };
+    refuse_others(&map, &SPRITE_KEYS, unfit)?;
+    let extras = Extras { map, unfit };
+    let cell = extras.whole("cell", 0, [0, u32::from(SheetCell::COUNT) - 1])?;
+    let group = extras.whole("group", 0, [0, GROUPS])?;
+    Ok(Some((cell as u8, group)))
+}
+
+/// So that none is misspelt.
+fn refuse_others(map: &Map<String, Value>, keys: &[&str], unfit: &Unfit) -> Result<(), BakeError> {
+    let other = map.keys().find(|key| !keys.contains(&key.as_str()));
+    other.map_or(Ok(()), |key| {
+        let (found, expected) = (format!("with a property `{key}`"), keys.join(", "));
+        Err(unfit("extras", found, format!("none but {expected}")))
+    })
+}
+
 /// What the properties say, and the defaults where they say nothing. Middle and size are left for the caller.
 pub(super) fn read(extras: Option<&RawValue>, unfit: &Unfit) -> Result<BoxSettings, BakeError> {
     let default = default_box();
@@ -32,14 +61,7 @@ pub(super) fn read(extras: Option<&RawValue>, unfit: &Unfit) -> Result<BoxSettin
     };
     let parsed = serde_json::from_str::<Map<String, Value>>(extras.get());
     let map = parsed.map_err(|e| unfit("extras", e.to_string(), "an object".to_string()))?;
-    if let Some(key) = map.keys().find(|key| !KEYS.contains(&key.as_str())) {
-        let expected = format!("none but {}", KEYS.join(", "));
-        return Err(unfit(
-            "extras",
-            format!("with a property `{key}`"),
-            expected,
-        ));
-    }
+    refuse_others(&map, &KEYS, unfit)?;
     let extras = Extras { map, unfit };
     let [least, most] = SPRITES;
     let rotation = extras.span("rotation_deg", ROTATIONS_DEG, ROTATIONS_DEG)?;

@@ -384,3 +384,88 @@ fn too_many_groups_are_refused() {
     nodes.extend((0..257).map(node));
     assert!(refused(&model(json!(nodes))).contains("257 numbers, expected at most 256"));
 }
+
+/// A sprite as a modelling program may have it: a node of a square that faces the viewer.
+fn square(node: Value) -> Value {
+    let mut model = model(json!([node]));
+    model["accessors"][0]["min"] = json!([-0.5, -0.5, 0.0]);
+    model["accessors"][0]["max"] = json!([0.5, 0.5, 0.0]);
+    model
+}
+
+#[test]
+fn a_node_with_a_cell_is_a_sprite_where_it_was_put() {
+    let half = (0.25_f32).sin_cos();
+    let node = json!({
+        "mesh": 0, "translation": [100, 40, -7.5], "scale": [300, 200, 1],
+        "rotation": [0, 0, half.0, half.1], "extras": {"cell": 12, "group": 3},
+    });
+    let boxes = read(&square(node)).unwrap();
+    assert_eq!(boxes.len(), 1);
+    let own = &boxes[0];
+    assert_eq!((own.group, own.cull, own.sprites), (3, 0.0, 1));
+    let sprite = own.by_hand[0];
+    let near = |a: f32, b: f32| (a - b).abs() < 1e-3;
+    assert!(
+        [0, 1, 2]
+            .iter()
+            .all(|&i| near(sprite.centre_m[i], [100.0, 40.0, -7.5][i]))
+    );
+    assert!(near(sprite.size_m[0], 300.0) && near(sprite.size_m[1], 200.0));
+    assert!(near(sprite.rotation_rad, 0.5));
+    assert_eq!(sprite.cell, 12);
+}
+
+#[test]
+fn a_plane_that_was_stood_up_is_a_sprite_too() {
+    let root = std::f32::consts::FRAC_1_SQRT_2;
+    // A modelling program's plane lies; a quarter turn about x makes its back the upper side.
+    let node = json!({
+        "mesh": 0, "rotation": [root, 0, 0, root], "scale": [300, 1, 200], "extras": {"cell": 0},
+    });
+    let mut lying = model(json!([node]));
+    lying["accessors"][0]["min"] = json!([-0.5, 0.0, -0.5]);
+    lying["accessors"][0]["max"] = json!([0.5, 0.0, 0.5]);
+    let sprite = read(&lying).unwrap()[0].by_hand[0];
+    assert!((sprite.size_m[0] - 300.0).abs() < 1e-3 && (sprite.size_m[1] - 200.0).abs() < 1e-3);
+    assert!(sprite.rotation_rad.abs() < 1e-6);
+}
+
+#[test]
+fn sprites_that_are_not_sound_are_refused_by_name() {
+    for (extras, expected) in [
+        (
+            json!({"cell": 16}),
+            "cell is 16, expected an integer from 0 to 15",
+        ),
+        (json!({"cell": "puff"}), "cell is \"puff\""),
+        (
+            json!({"cell": 1, "sprites": 3}),
+            "with a property `sprites`, expected none but cell, group",
+        ),
+        (json!({"cell": 1, "group": 10_000}), "group is 10000"),
+    ] {
+        let error = refused(&square(
+            json!({"mesh": 0, "scale": [9, 9, 1], "extras": extras}),
+        ));
+        assert!(error.contains(expected), "{error}");
+    }
+    let none = square(json!({"mesh": 0, "scale": [0, 9, 1], "extras": {"cell": 1}}));
+    assert!(refused(&none).contains("size is 0 m"));
+}
+
+#[test]
+fn more_sprites_than_a_box_may_have_are_in_several() {
+    let node = |i: usize| json!({"mesh": 0, "scale": [9, 9, 1], "translation": [i, 0, 0], "extras": {"cell": 4}});
+    let mut nodes = square(json!({"children": (1..=250).collect::<Vec<_>>()}));
+    let list = nodes["nodes"].as_array_mut().unwrap();
+    list.extend((0..250).map(node));
+    let boxes = read(&nodes).unwrap();
+    let counts: Vec<u32> = boxes.iter().map(|b| b.sprites).collect();
+    assert_eq!(counts, [100, 100, 50]);
+    assert!(
+        boxes
+            .iter()
+            .all(|b| b.category == Category::Wispy && b.group == 0)
+    );
+}

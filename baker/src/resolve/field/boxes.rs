@@ -49,6 +49,7 @@ impl Recipe {
             group: self.integer(&name("group"), &table.group, 0, 0, GROUPS)?,
             flat_bottom: self.flag(&name("flat_bottom"), &table.flat_bottom)?,
             cull: self.real(&name("cull"), &table.cull, default.cull, CULL[0], CULL[1])?,
+            by_hand: Vec::new(),
         };
         boxes::verify(&found).map_err(|Fault { found, expected }| {
             self.refuse_at(&name("cull"), span, found, expected)

@@ -52,6 +52,11 @@ impl ExportArgs {
                 "a lens flare belongs to one camera, and is left out",
             ),
             (
+                "starburst",
+                true,
+                "a lens flare belongs to one camera, and is left out",
+            ),
+            (
                 "rain",
                 rain > 0.0,
                 "streaks of rain belong to one screen and do not meet across faces",

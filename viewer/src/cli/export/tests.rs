@@ -173,11 +173,12 @@ fn options_that_do_not_hold_everywhere_are_refused() {
             &["--elevation", "0"],
             &["--fov", "90"],
             &["--flare", "0.5"],
+            &["--starburst"],
             &["--rain", "0.5"],
             &["--method", "lit", "--shadow", "s.png"],
         ] {
             let error = read(output, &[&map[..], option].concat()).unwrap_err();
-            let name = option[option.len() - 2];
+            let name = option.iter().rfind(|word| word.starts_with("--")).unwrap();
             let told = format!("{name} does not go with {}", map[0]);
             assert!(
                 error.contains(&told) && error.contains("leave it out"),

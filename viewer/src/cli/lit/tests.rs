@@ -43,6 +43,11 @@ fn a_layer_is_as_its_kind_where_it_is_not_told_otherwise() {
             ..LitLayer::of(kind, 0.25)
         };
         assert_eq!(layers_of(&format!("{share}:1.5")), [height]);
+        let moved = LitLayer {
+            velocity_m_s: [-10.0, 2.5],
+            ..height
+        };
+        assert_eq!(layers_of(&format!("{share}:1.5:-10:2.5")), [moved]);
     }
 }
 
@@ -102,8 +107,8 @@ fn layers_that_do_not_exist_are_refused_with_what_was_found_and_expected() {
         ("cumulus:1:21", "the height of cumulus is \"21\""),
         ("cumulus:1:inf", "the height of cumulus is \"inf\""),
         (
-            "cumulus:1:1:1",
-            "\"cumulus:1:1:1\" has too many parts; expected KIND[:SHARE[:HEIGHT]]",
+            "cumulus:1:1:1:1:1",
+            "\"cumulus:1:1:1:1:1\" has too many parts; expected KIND[:SHARE[:HEIGHT[:EAST:SOUTH]]]",
         ),
     ] {
         let error = read(&["--layers", text]).unwrap_err();

@@ -312,6 +312,7 @@ fn options_reach_the_view() {
         "0.8",
         "--skybox",
         "0.9",
+        "--starburst",
         "--no-sun",
         "--no-stars",
         "--at",
@@ -337,6 +338,7 @@ fn options_reach_the_view() {
         time: 0.6,
         upper_layer: 0.7,
         flare: 0.8,
+        starburst: true,
         skybox: 0.9,
         sun: false,
         stars: false,
@@ -443,11 +445,11 @@ fn another_text(key: &Key) -> String {
     match key.input {
         Input::Slider { whole: true, .. } => "3".to_string(),
         Input::Slider { low, high, .. } => ((low + (high - low) * 0.625) as f32).to_string(),
-        Input::Switch => "false".to_string(),
+        Input::Switch => (key.text(&Settings::default()) == "false").to_string(),
         Input::Choice { choices } => choices[choices.len() - 1].to_string(),
         Input::Numbers { optional: true, .. } => "-0.5,-0.5,9,-2.5,0.5".to_string(),
         Input::Numbers { .. } | Input::Colour => "0.25,0.5,0.75".to_string(),
-        Input::Layers => "cumulus:0.5:0.8,cirrus:0.25:4".to_string(),
+        Input::Layers => "cumulus:0.5:0.8:-20:5,cirrus:0.25:4".to_string(),
         Input::Text { .. } => "-4,2.5,10,0.5".to_string(),
     }
 }

@@ -21,6 +21,7 @@ pub fn show(ui: &mut Ui, key: &Key, settings: &mut Settings) {
                 gone = Some(index);
             }
         });
+        ui.horizontal(|ui| is_settled |= velocity(ui, layer));
     }
     if let Some(index) = gone {
         layers[index].share = 0.0;
@@ -50,6 +51,9 @@ fn row(ui: &mut Ui, index: usize, layer: &mut LitLayer) -> bool {
                     .changed();
             }
         });
+    if is_settled {
+        layer.velocity_m_s = LitLayer::of(layer.kind, layer.share).velocity_m_s;
+    }
     let share = DragValue::new(&mut layer.share)
         .range(LEAST_SHARE..=1.0)
         .speed(0.005)
@@ -66,4 +70,17 @@ fn row(ui: &mut Ui, index: usize, layer: &mut LitLayer) -> bool {
         || [share, height]
             .iter()
             .any(|r| r.drag_stopped() || r.lost_focus())
+}
+
+/// Where a layer goes; whether the person has ended a change.
+fn velocity(ui: &mut Ui, layer: &mut LitLayer) -> bool {
+    ui.label("m/s to east, south")
+        .on_hover_text("Where it goes at speed 1");
+    let mut is_settled = false;
+    for value in &mut layer.velocity_m_s {
+        let drag = DragValue::new(value).range(-200.0..=200.0).speed(0.5);
+        let response = ui.add(drag.max_decimals(1));
+        is_settled |= response.drag_stopped() || response.lost_focus();
+    }
+    is_settled
 }
