@@ -89,7 +89,14 @@ fn all(
     let first = from_environment("WELKIN_FIRST", 0);
     let found: Vec<_> = (first..first + count)
         .into_par_iter()
-        .map(|number| (number, outcome(&recipe(number).join("\n"))))
+        .map(|number| {
+            let outcome = outcome(&recipe(number).join("\n"));
+            // At once: a long run may be ended before it is done.
+            if let Err(error) = &outcome {
+                println!("{number}: {error}");
+            }
+            (number, outcome)
+        })
         .collect();
     let mut counts = BTreeMap::new();
     let mut faults = Vec::new();
@@ -103,9 +110,6 @@ fn all(
         "{name}: {count} from {first}: {counts:?}, {} faults",
         faults.len()
     );
-    for (number, error) in &faults {
-        println!("{number}: {error}");
-    }
     let told: Vec<String> = faults
         .par_iter()
         .take(from_environment("WELKIN_FAULTS", 8) as usize)
