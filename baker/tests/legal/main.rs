@@ -7,6 +7,7 @@
 //! one; a failure names its own, and the fewest keys that make it. No file is needed, so the test's binary runs anywhere.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it fails")]
+#![allow(clippy::print_stdout, reason = "a long run tells how far it is")]
 
 mod draw;
 mod pictures;
