@@ -10,7 +10,7 @@ PACK := packs/default
 SKYBOX_PACK := packs/skybox
 FRAME := --size 1280x720
 
-# What `make recipes` bakes: twenty minutes on sixteen cores.
+# What `make recipes` bakes.
 RECIPES := 20000
 SEEDS := 10000
 

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 use welkin_baker::{BakeError, DEFAULT_RECIPE, Inputs, Recipe, bake_from, recipe_key, verify};
 use welkin_pack::Pack;
-use welkin_pack::check::{Finding, Outcome, RULES};
+use welkin_pack::check::{Finding, Outcome};
 
 /// The default recipe with textures as small as they may be.
 const SMALL: &str = "clouds.size = 64\ngalaxy.size = 32\nsky.width = 32\nsky.height = 16\nfbm.size = 64\n\
@@ -78,7 +78,6 @@ fn every_rule_is_told_by_a_key_that_a_recipe_has() {
     let report = verify(&pack("seed = 3")).unwrap();
     for found in &report.findings {
         let key = recipe_key(&finding(found.rule, &found.subject));
-        let table = found.subject.split(['.', ' ']).next().unwrap();
         // A key that the default recipe spells out; tables of a list have no key of their own there.
         let leaf = key.rsplit('.').next().unwrap();
         assert!(
@@ -88,7 +87,6 @@ fn every_rule_is_told_by_a_key_that_a_recipe_has() {
             found.rule,
             found.subject
         );
-        assert!(key == "seed" || table == "cover" || table == "overcast" || !key.is_empty());
     }
     assert_eq!(
         recipe_key(&finding("smooth", "clouds.photo")),
@@ -98,7 +96,6 @@ fn every_rule_is_told_by_a_key_that_a_recipe_has() {
         recipe_key(&finding("sky-day", "noon / midnight")),
         "sun.noon_elevation_deg"
     );
-    assert!(RULES.len() > 50);
 }
 
 /// A picture that a recipe may name and that shows no clouds: noise of single texels, of which a small texture keeps too
@@ -127,7 +124,7 @@ fn what_is_not_sound_is_told_by_its_key() {
         "{told}"
     );
     assert!(
-        told.contains("expected at most 1; change `clouds.photo.file` in the recipe"),
+        told.ends_with("change `clouds.photo.file` in the recipe"),
         "{told}"
     );
     let BakeError::Unsound { faults } = error else {

@@ -14,7 +14,7 @@ const CLIPPED: f32 = 0.002;
 const OUTLIER: f32 = 4.0;
 
 /// Spread below which noise is flat. One octave of one cell has two lattice points; where the gradients of both cancel, as
-/// of one seed in some hundreds, nothing is left, and it is drawn again. Other noise has a tenth or more.
+/// of one seed in a hundred, nothing is left, and it is drawn again. Other noise has 0.06 or more.
 const FLAT: f32 = 1e-3;
 
 /// A channel of `size` texels a side that tiles, with the settings' mean. `name` is its random stream.

@@ -273,7 +273,7 @@ impl Draw {
             1 => most,
             2 | 3 if least > 0.0 => {
                 let power = self.unit();
-                (least * (most / least).powf(power)).clamp(least, most)
+                (least * libm::pow(most / least, power)).clamp(least, most)
             }
             _ => least + (most - least) * self.unit(),
         }

@@ -44,8 +44,8 @@ fn sky(share: f32, haze: f32) -> RgbImage {
             let cycles = 1.0 + 9.0 * turn(0.618_034) * turn(0.754_878);
             let angle = TAU * turn(0.569_840);
             [
-                cycles * angle.cos(),
-                cycles * angle.sin(),
+                cycles * libm::cosf(angle),
+                cycles * libm::sinf(angle),
                 turn(0.324_718),
                 1.0 / cycles,
             ]
@@ -54,7 +54,7 @@ fn sky(share: f32, haze: f32) -> RgbImage {
     RgbImage::from_fn(160, 160, |x, y| {
         let [u, v] = [x, y].map(|i| i as f32 / 160.0);
         let wave =
-            |[a, b, phase, weight]: &[f32; 4]| weight * (TAU * (a * u + b * v + phase)).cos();
+            |[a, b, phase, weight]: &[f32; 4]| weight * libm::cosf(TAU * (a * u + b * v + phase));
         let height = waves.iter().map(wave).sum::<f32>() / 6.0 + share - 0.5;
         let cloud = (0.5 + height).clamp(0.0, 1.0);
         let white = haze + (1.0 - haze) * cloud;
@@ -74,8 +74,8 @@ fn sheet() -> RgbaImage {
             SheetKind::FlatBottomed | SheetKind::Puffy => 1.0,
         };
         let [u, v] = [x, y].map(|i| ((i % side) as f32 + 0.5) / side as f32 * 2.0 - 1.0);
-        let alpha = peak * ((0.9 - u.hypot(v)) / 0.5).clamp(0.0, 1.0);
-        let grey = 0.7 + 0.2 * (7.0 * u).sin() * (7.0 * v + f32::from(cell.0)).sin();
+        let alpha = peak * ((0.9 - libm::hypotf(u, v)) / 0.5).clamp(0.0, 1.0);
+        let grey = 0.7 + 0.2 * libm::sinf(7.0 * u) * libm::sinf(7.0 * v + f32::from(cell.0));
         let grey = (255.0 * grey) as u8;
         Rgba([grey, grey, grey, (255.0 * alpha) as u8])
     })

@@ -380,7 +380,7 @@ fn faults_of_the_sky_each_have_a_rule() {
     });
     assert_errors(&["sky-night", "sky-hours"], &starry_noon);
     let bright_midnight = with(Role::Sky, |image| {
-        each_texel(image, |_, _, t| t[3] = 0.4 * t[3]);
+        each_texel(image, |_, _, t| t[3] *= 0.4);
     });
     assert_errors(&["sky-night", "sky-hours"], &bright_midnight);
     let white_night = with(Role::Sky, |image| {
