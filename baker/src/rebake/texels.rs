@@ -1,7 +1,7 @@
 //! Textures, value by value.
 
 use welkin_pack::check::{Examined, Finding, Outcome};
-use welkin_pack::{Format, Pack, Role, Texture};
+use welkin_pack::{Format, Pack, Role, Shape, Texture};
 
 use super::{counted, finding, skipped};
 
@@ -93,6 +93,10 @@ impl Place {
         let (x, y) = (index % width, index / width % height);
         let layer = index / (width * height);
         let layer = match role.layer_name(layer as u32) {
+            // Its name is a number, from 1.
+            Some(_) if found.shape == Shape::Array && role != Role::Layers => {
+                format!(", layer {layer}")
+            }
             Some(name) => format!(", layer {layer} ({name})"),
             None => String::new(),
         };

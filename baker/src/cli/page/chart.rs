@@ -106,7 +106,7 @@ pub fn spectrum(energy: &[f64]) -> String {
     if most <= 0.0 || waves < 2 {
         return chart("spectrum", "", "1", "flat: no energy", &right);
     }
-    let depth = |e: f64| (-libm::log10(e / most)).min(DECADES);
+    let depth = |e: f64| libm::log10(most / e).min(DECADES);
     let deepest = energy.iter().map(|&e| depth(e)).fold(0.0, f64::max);
     let decades = (2.0 * libm::ceil(deepest / 2.0)).max(2.0);
     let mut inside = String::new();
