@@ -160,7 +160,7 @@ bench: gpu-tools ## Measure the bake, and the GPU milliseconds of a frame of eac
 # too much memory. libFuzzer's coverage works with the stable one.
 fuzz-build: ## Compile the fuzz targets and write what they start from
 	@command -v cargo-fuzz >/dev/null || $(CARGO) install cargo-fuzz --locked
-	$(CARGO) run --release --locked --manifest-path fuzz/Cargo.toml -p welkin-fuzz-seeds -- fuzz/corpus
+	$(CARGO) run --release --manifest-path fuzz/Cargo.toml -p welkin-fuzz-seeds -- fuzz/corpus
 	$(CARGO) fuzz build --sanitizer none
 
 fuzz: fuzz-build ## Feed every reader with damaged files, SECONDS each: `make fuzz SECONDS=600`

@@ -3,9 +3,9 @@
 
 use std::collections::BTreeMap;
 
+use welkin_pack::Pack;
 use welkin_pack::check::check_memory;
 use welkin_pack::manifest::MANIFEST_FILE;
-use welkin_pack::Pack;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let files = BTreeMap::from([(MANIFEST_FILE.to_string(), bytes.to_vec())]);

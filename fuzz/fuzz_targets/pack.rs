@@ -23,10 +23,7 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let Some((name, manifest)) = fit(manifest, file) else {
         return;
     };
-    let files = BTreeMap::from([
-        (name, file.to_vec()),
-        (MANIFEST_FILE.to_string(), manifest),
-    ]);
+    let files = BTreeMap::from([(name, file.to_vec()), (MANIFEST_FILE.to_string(), manifest)]);
     drop(Pack::from_memory("fuzz", &files));
     drop(check_memory("fuzz", &files));
 });

@@ -85,7 +85,11 @@ fn main() -> anyhow::Result<()> {
         save("ktx", &format!("raw-{}", entry.file), &raw)?;
         let one = one_entry(manifest, Some(&entry.file))?;
         save("pack", entry.role.name(), &pack_input(&one, packed))?;
-        save("pack", &format!("raw-{}", entry.role.name()), &pack_input(&one, &raw))?;
+        save(
+            "pack",
+            &format!("raw-{}", entry.role.name()),
+            &pack_input(&one, &raw),
+        )?;
     }
     let field = pack_input(&one_entry(manifest, None)?, files["field.glb"]);
     save("pack", "field", &field)
@@ -114,22 +118,34 @@ fn files(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
 fn pictures() -> anyhow::Result<Vec<(&'static str, Vec<u8>)>> {
     let at = |x: u32, y: u32, c: u32| (x * (5 + c) + y * 7) % 256;
     let rgb = image::RgbImage::from_fn(64, 64, |x, y| Rgb([0, 1, 2].map(|c| at(x, y, c) as u8)));
-    let rgba = image::RgbaImage::from_fn(64, 32, |x, y| Rgba([0, 1, 2, 3].map(|c| at(x, y, c) as u8)));
-    let float = image::Rgb32FImage::from_fn(32, 16, |x, y| Rgb([0, 1, 2].map(|c| at(x, y, c) as f32 / 99.0)));
+    let rgba =
+        image::RgbaImage::from_fn(64, 32, |x, y| Rgba([0, 1, 2, 3].map(|c| at(x, y, c) as u8)));
+    let float = image::Rgb32FImage::from_fn(32, 16, |x, y| {
+        Rgb([0, 1, 2].map(|c| at(x, y, c) as f32 / 99.0))
+    });
     let write = |picture: &image::DynamicImage, format| -> anyhow::Result<Vec<u8>> {
         let mut bytes = Cursor::new(Vec::new());
         picture.write_to(&mut bytes, format)?;
         Ok(bytes.into_inner())
     };
-    let (rgb, rgba) = (image::DynamicImage::from(rgb), image::DynamicImage::from(rgba));
+    let (rgb, rgba) = (
+        image::DynamicImage::from(rgb),
+        image::DynamicImage::from(rgba),
+    );
     let float = image::DynamicImage::from(float);
     Ok(vec![
         ("rgb.png", write(&rgb, ImageFormat::Png)?),
         ("rgba.png", write(&rgba, ImageFormat::Png)?),
         ("grey.png", write(&rgb.to_luma8().into(), ImageFormat::Png)?),
-        ("rgb16.png", write(&rgb.to_rgb16().into(), ImageFormat::Png)?),
+        (
+            "rgb16.png",
+            write(&rgb.to_rgb16().into(), ImageFormat::Png)?,
+        ),
         ("rgb.jpg", write(&rgb, ImageFormat::Jpeg)?),
-        ("grey.jpg", write(&rgb.to_luma8().into(), ImageFormat::Jpeg)?),
+        (
+            "grey.jpg",
+            write(&rgb.to_luma8().into(), ImageFormat::Jpeg)?,
+        ),
         ("float.hdr", write(&float, ImageFormat::Hdr)?),
         ("float.exr", write(&float, ImageFormat::OpenExr)?),
     ])
@@ -139,13 +155,16 @@ fn small_pack() -> anyhow::Result<Pack> {
     let sky = image::RgbImage::from_fn(64, 32, |x, y| Rgb([x as u8, y as u8, 90]));
     let mut bytes = Cursor::new(Vec::new());
     sky.write_to(&mut bytes, ImageFormat::Png)?;
-    let photo = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets-src/photos/clouds-web.jpg");
+    let photo =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets-src/photos/clouds-web.jpg");
     let files = BTreeMap::from([
         ("sky.png".to_string(), bytes.into_inner()),
         (welkin_baker::BUILT_IN_PHOTO.to_string(), fs::read(photo)?),
     ]);
     let resolved = Recipe::parse("small.toml", SMALL)?.resolve(None)?;
-    let pack = welkin_baker::bake_from(&resolved, Inputs::Memory(&files), &|_| ControlFlow::Continue(()));
+    let pack = welkin_baker::bake_from(&resolved, Inputs::Memory(&files), &|_| {
+        ControlFlow::Continue(())
+    });
     Ok(pack?)
 }
 

@@ -153,8 +153,8 @@ impl<'a> Instances<'a> {
         };
         match bytes {
             // So that elements do not overlap, and a few bytes cannot claim to be many sprites.
-            Some(bytes) if (size..=256).contains(&stride) && stride % unit == 0 => {
-                if (view.byte_offset + accessor.byte_offset) % unit == 0 {
+            Some(bytes) if (size..=256).contains(&stride) && stride.is_multiple_of(unit) => {
+                if (view.byte_offset + accessor.byte_offset).is_multiple_of(unit) {
                     return Ok((bytes, stride as usize));
                 }
                 let found = format!("at {}", view.byte_offset + accessor.byte_offset);

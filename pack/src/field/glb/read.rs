@@ -67,7 +67,7 @@ fn verify_gltf<'a>(file: &str, document: &Document, bin: &'a [u8]) -> Result<&'a
     };
     let asset = &document.asset;
     let minor = asset.version.strip_prefix("2.");
-    if !minor.is_some_and(|minor| minor.parse::<u32>().is_ok()) {
+    if minor.is_none_or(|minor| minor.parse::<u32>().is_err()) {
         return bad("asset.version", asset.version.clone(), "2.0");
     }
     if let Some(least) = asset.min_version.as_ref().filter(|least| *least != "2.0") {
