@@ -24,19 +24,19 @@ mod tests {
     use std::io;
 
     use anyhow::{Context, anyhow};
-    use welkin_pack::{Pack, PackError};
+    use welkin_baker::BakeError;
+    use welkin_pack::Pack;
 
     use super::*;
 
     #[test]
     fn a_cause_that_a_message_has_in_it_is_not_repeated() {
         let source = io::Error::new(io::ErrorKind::NotFound, "there is none");
-        let file = "sky".to_string();
-        let error = PackError::Write { file, source };
-        assert_eq!(
-            told(&error.into()),
-            "sky: cannot be written: there is none; nothing was changed"
-        );
+        let (file, key) = ("sky".to_string(), "stars.file".to_string());
+        let error = BakeError::Read { file, key, source };
+        let text = error.to_string();
+        assert!(text.contains("there is none"), "{text}");
+        assert_eq!(told(&error.into()), text);
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("pack.json"), "{}").unwrap();
         let unreadable = Pack::open(folder.path()).unwrap_err();
