@@ -58,9 +58,9 @@ pub fn decode_texture(
         }
         (ktx::decode(file, bytes)?, Vec::new())
     } else if bytes.starts_with(PNG) {
-        wanted.from_png(bytes)?
+        wanted.read_png(bytes)?
     } else if bytes.starts_with(EXR) {
-        wanted.from_exr(bytes)?
+        wanted.read_exr(bytes)?
     } else {
         let expected = "a PNG, OpenEXR or KTX2 file; convert it";
         return Err(unfit(file, "format", "unknown", expected));
@@ -112,7 +112,7 @@ impl Wanted<'_> {
         Err(unfit_size(self.file, [width, height], expected))
     }
 
-    fn from_png(self, bytes: &[u8]) -> Result<Read, BakeError> {
+    fn read_png(self, bytes: &[u8]) -> Result<Read, BakeError> {
         let format = self.spec().formats[0];
         if format == Format::Rgba16Float {
             let expected = "OpenEXR or KTX2: the role has half floats";
@@ -174,7 +174,7 @@ impl Wanted<'_> {
         }
     }
 
-    fn from_exr(self, bytes: &[u8]) -> Result<Read, BakeError> {
+    fn read_exr(self, bytes: &[u8]) -> Result<Read, BakeError> {
         let failed = |error| open_exr::failed(self.file, error);
         let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(failed)?;
         let Some(header) = meta.headers.iter().find(|header| !header.deep) else {

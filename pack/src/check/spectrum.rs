@@ -192,7 +192,7 @@ mod tests {
         }
         let rings = radial_spectrum(&image, 0).unwrap();
         let count = (-6_i32..=6)
-            .flat_map(|x| (-6_i32..=6).map(move |y| (x * x + y * y) as f64))
+            .flat_map(|x| (-6_i32..=6).map(move |y| f64::from(x * x + y * y)))
             .filter(|square| (4.5 * 4.5..5.5 * 5.5).contains(square))
             .count() as f64;
         let each = libm::pow(64.0 * 64.0 / 2.0, 2.0);

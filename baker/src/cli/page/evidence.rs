@@ -116,10 +116,10 @@ fn one_layer(
     html += &picture(&shown, &image, role, spec.name, &label);
     // The gradient does not tile, though its texture does.
     if role.spec().wrap == Wrap::Repeat && role != Role::Sky && spec.name != "gradient" {
-        let _ = write!(
+        let _ = writeln!(
             html,
             "<figure><div class=\"picture seam{} {}\" style=\"width:{SIDE}px;height:{SIDE}px\" role=\"img\" \
-             aria-label=\"{label}, 2 by 2\"></div><figcaption>2\u{d7}2, seams cross in the middle</figcaption></figure>\n",
+             aria-label=\"{label}, 2 by 2\"></div><figcaption>2\u{d7}2, seams cross in the middle</figcaption></figure>",
             crisp(&shown, role),
             shown.class
         );

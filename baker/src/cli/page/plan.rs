@@ -50,11 +50,11 @@ fn from_above(field: &Field) -> String {
             .map(|c| drawn(c, project, true) + &framed(c, project))
             .collect();
         let count = field.clouds.iter().filter(|c| c.rank <= cover).count();
-        let _ = write!(
+        let _ = writeln!(
             html,
             "<figure><svg class=\"plan\" viewBox=\"0 0 {side} {side}\" role=\"img\" aria-label=\"plan at cover {cover}\">\
              <rect class=\"ground\" width=\"{side}\" height=\"{side}\"/><path class=\"grid\" d=\"{grid}\"/>{before}\
-             <g id=\"ranks{index}\">{new}</g></svg><figcaption>cover {cover}: {count} clouds</figcaption></figure>\n"
+             <g id=\"ranks{index}\">{new}</g></svg><figcaption>cover {cover}: {count} clouds</figcaption></figure>"
         );
         let _ = write!(before, "<use href=\"#ranks{index}\"/>");
         least = cover;
