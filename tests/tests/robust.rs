@@ -187,6 +187,7 @@ fn all(method: Method, number: f32) -> SkyParams {
         time: number,
         upper_layer: number,
         exposure: number,
+        starburst: true,
         dither: true,
         sky: SkyModel::Perez,
         perez: PerezParams {

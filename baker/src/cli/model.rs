@@ -2,12 +2,13 @@
 
 use anyhow::{Result, bail};
 use welkin_baker::cloud_model;
-use welkin_pack::Pack;
+use welkin_pack::place::verify_apart;
 
-use super::{ModelArgs, whole};
+use super::{ModelArgs, file, input};
 
 pub fn run(args: &ModelArgs) -> Result<()> {
-    let pack = Pack::open(&args.pack)?;
+    verify_apart(&[&args.pack], &[&args.output])?;
+    let pack = input::pack(&args.pack)?;
     let Some(field) = pack.field() else {
         bail!(
             "{}: the pack has no field, so there is no cloud to write; bake one with a table [field] in its recipe",
@@ -22,5 +23,5 @@ pub fn run(args: &ModelArgs) -> Result<()> {
             field.clouds.len()
         );
     };
-    whole::write_file(&args.output, &cloud_model(cloud))
+    file::write(&args.output, &cloud_model(cloud))
 }
