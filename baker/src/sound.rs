@@ -36,6 +36,9 @@ pub fn recipe_key(finding: &Finding) -> &'static str {
 /// How the rule and its subject begin, and the key to turn; the first that fits. What depends on chance alone is told as
 /// `seed`.
 const KEYS: &[(&str, &str, &str)] = &[
+    ("cloud-apart", "", "clouds.noise.cells"),
+    ("cloud-mean", "clouds.noise", "clouds.noise.mean"),
+    ("cloud-mean", "clouds.detail", "clouds.detail.mean"),
     ("cloud-cover", "", "clouds.noise.mean"),
     ("cloud-spread", "clouds.photo", "clouds.photo.mean"),
     ("cloud-spread", "clouds.noise", "clouds.noise.mean"),
@@ -53,6 +56,7 @@ const KEYS: &[(&str, &str, &str)] = &[
     ("", "galaxy", "galaxy.size"),
     ("sky-range", "", "sky.haze"),
     ("sky-step", "", "sky.width"),
+    ("sky-colour", "", "sky.haze"),
     ("sky", "", "sun.noon_elevation_deg"),
     ("", "sky.", "sky.haze"),
     ("", "sun", "sun.size"),
@@ -77,6 +81,7 @@ const KEYS: &[(&str, &str, &str)] = &[
     ("field-boxes", "", "field.models"),
     ("field-rank", "", "field.models"),
     ("field-hours", "", "field.hours"),
+    ("field-light", "", "field.hours"),
     ("field-counts", "", "field.clouds"),
     ("", "field", "field.clouds"),
 ];
