@@ -46,18 +46,42 @@ pub(crate) fn default_box() -> BoxSettings {
 
 /// What is wrong with a box whose numbers are each in range.
 pub(crate) struct Fault {
+    pub key: &'static str,
     pub found: String,
     pub expected: String,
 }
 
-/// The cull distance is at most the longest side: above it a box could hold one sprite alone.
+/// The most that a side of a sprite has, in half diagonals of its box: what is wider hides the cloud that it is in. The rule
+/// `field-size` of `welkin check` asks the same of a cloud, which is no smaller than its boxes.
+const MOST_RADII: f32 = 4.0;
+
+/// The cull distance is at most the longest side: above it a box could hold one sprite alone. Sprites are not far larger
+/// than their box.
 pub(crate) fn verify(of_cloud: &BoxSettings) -> Result<(), Fault> {
+    let [x, y, z] = of_cloud.size_m;
+    let radius_m = 0.5 * libm::sqrtf(x * x + y * y + z * z);
+    for (key, [_, side_m]) in [
+        ("width_m", of_cloud.width_m),
+        ("height_m", of_cloud.height_m),
+    ] {
+        if side_m > MOST_RADII * radius_m {
+            return Err(Fault {
+                key,
+                found: format!("up to {side_m} m"),
+                expected: format!(
+                    "at most {} m, four times half the diagonal of the box: make the box larger, or its sprites smaller",
+                    MOST_RADII * radius_m
+                ),
+            });
+        }
+    }
     let longest = of_cloud.size_m.into_iter().fold(0.0, f32::max);
     let cull_m = of_cloud.cull_m();
     if cull_m <= longest || of_cloud.sprites == 1 {
         return Ok(());
     }
     Err(Fault {
+        key: "cull",
         found: format!("{cull_m} m of the sprites' mean height"),
         expected: format!(
             "at most the longest side of the box, {longest} m: make the box larger, or its sprites lower"

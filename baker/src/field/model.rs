@@ -178,8 +178,13 @@ impl Visit<'_> {
                 return Err(unfit(key, format!("{value} m"), expected));
             }
         }
-        boxes::verify(&found)
-            .map_err(|Fault { found, expected }| unfit("cull", found, expected))?;
+        boxes::verify(&found).map_err(
+            |Fault {
+                 key,
+                 found,
+                 expected,
+             }| unfit(key, found, expected),
+        )?;
         Ok(found)
     }
 }

@@ -57,6 +57,20 @@ impl Recipe {
                 "over 0, up to 1, in one layer at least, or `sections = 0` to leave the field out";
             return Err(self.refuse("field.clouds[0].cover", cover, expected));
         }
+        // Many clouds of one rank come all at once, which the rule `field-spread` refuses.
+        let ranks: Vec<_> = settings.models.iter().map(|model| model.rank).collect();
+        let copies: u32 = settings.models.iter().map(|model| model.copies).sum();
+        let are_alike = ranks.windows(2).all(|pair| pair[0] == pair[1]);
+        if let Some(Some(rank)) = ranks.first()
+            && sections > 0
+            && settings.layers.iter().all(|layer| layer.cover == 0.0)
+            && are_alike
+            && copies >= 8
+        {
+            let expected = "ranks that differ, for eight copies and more in all, or none: then they come one after another";
+            let span = self.field_span();
+            return Err(self.refuse_at("field.models[0].rank", span, rank, expected));
+        }
         Ok((sections > 0).then_some(settings))
     }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
 use serde_json::Value;
-use welkin_pack::manifest::Input;
+use welkin_pack::manifest::{FractalNoise, Input};
 use welkin_pack::{Overwrite, Pack, PackInfo, Role, Source};
 
 use crate::{Desk, contents, default_pack, run, welkin};
@@ -57,6 +57,12 @@ fn check_tells_problems_from_what_it_cannot_read() {
 fn what_a_pack_says_of_itself_stays_on_its_line() {
     const EVIL: &str = "a\u{1b}[2J\nseed            9\u{202e}";
     const SHOWN: &str = r"a\u{1b}[2J\nseed            9\u{202e}";
+    const NOISE: FractalNoise = FractalNoise {
+        cells: 4,
+        octaves: 5,
+        gain: 0.5,
+        mean: 0.26,
+    };
     let desk = Desk::new();
     let folder = desk.small_pack();
     let baked = Pack::open(&folder).unwrap();
@@ -80,7 +86,8 @@ fn what_a_pack_says_of_itself_stays_on_its_line() {
             blake3: "0".repeat(64),
         }],
         noon_elevation_rad: 1.0,
-        ..PackInfo::default()
+        noise: NOISE,
+        detail: NOISE,
     };
     let evil = Pack::build(info, Role::ALL.into_iter().filter_map(source).collect()).unwrap();
     evil.save(&folder, Overwrite::Replace, &|| false).unwrap();

@@ -61,12 +61,13 @@ pub(super) fn check(report: &mut Report, texture: &Texture, entry: Option<&Textu
 
 /// What tells the three channels from each other and from anything else.
 fn check_character(report: &mut Report, texture: &Texture, entry: Option<&TextureEntry>) {
-    let (image, view) = (texture.view(0, 0), character::view(texture));
-    let ranks = [PHOTO, NOISE, DETAIL].map(|channel| character::ranks(view, channel));
-    for (channel, ranks) in ranks.iter().enumerate() {
+    let image = texture.view(0, 0);
+    for channel in [PHOTO, NOISE, DETAIL] {
         let name = subject(Role::Clouds, channel);
         check_clear(report, image, channel);
         let noise = entry.and_then(|e| e.channels.get(channel)?.fractal.as_ref());
+        let view = character::view(texture, noise.map_or(0, |noise| noise.cells));
+        let ranks = character::ranks(view, channel);
         let spectrum = Spectrum::new(ranks.width, ranks.channel(0));
         let least = match noise {
             Some(noise) => character::least_waves(noise, view.width),
@@ -85,6 +86,8 @@ fn check_character(report: &mut Report, texture: &Texture, entry: Option<&Textur
             }
         }
     }
+    let view = character::view(texture, 0);
+    let ranks = [PHOTO, NOISE, DETAIL].map(|channel| character::ranks(view, channel));
     for (a, b) in [(PHOTO, NOISE), (NOISE, DETAIL), (PHOTO, DETAIL)] {
         let [first, second] = [a, b].map(|c| Role::Clouds.spec().channels[c].name);
         report.measure(
@@ -122,12 +125,14 @@ fn check_fractal(
 ) {
     let name = subject(Role::Clouds, channel);
     let expected = character::expected_band(noise, spectrum.size());
-    let slack = character::band_slack(noise);
+    let clear = image.channel(channel).filter(|v| *v == 0.0).count() as f64
+        / (f64::from(image.width) * f64::from(image.height));
+    let [below, above] = character::band_slack(noise, clear);
     report.measure(
         CLOUD_BAND,
         &name,
         character::band(spectrum),
-        Bound::Within(expected - slack, expected + slack),
+        Bound::Within(expected - below, expected + above),
     );
     // The bake meets it to a thousandth; bytes round by half a step, all the same way at worst.
     let (mean, declared) = (image.mean_and_spread(channel).0, noise.mean);

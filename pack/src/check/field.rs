@@ -52,20 +52,20 @@ fn check_sizes(report: &mut Report, field: &Field) {
     });
     let largest = largest.fold(0.0, f64::max);
     report.measure(FIELD_SIZE, SUBJECT, largest, Bound::AtMost(MOST_RADII));
-    // Ranks are shares of ground, and every cloud covers some.
-    let count = field.clouds.len();
-    let alike = field
-        .clouds
-        .windows(2)
-        .filter(|pair| pair[0].rank == pair[1].rank);
-    let most = if count < 8 { count } else { count / 2 };
-    report.measure(
-        FIELD_SPREAD,
-        SUBJECT,
-        alike.count() as f64,
-        Bound::AtMost(most as f64),
-    );
+    // Ranks are shares of ground, and few clouds cover none that is free.
+    let ranks = field.clouds.iter().map(|cloud| cloud.rank);
+    let [least, most] = [ranks.clone().fold(1.0, f32::min), ranks.fold(0.0, f32::max)];
+    let is_many = field.clouds.len() >= MANY_CLOUDS;
+    let bound = Bound::AtLeast(if is_many {
+        f64::from(f32::EPSILON)
+    } else {
+        0.0
+    });
+    report.measure(FIELD_SPREAD, SUBJECT, f64::from(most - least), bound);
 }
+
+/// As many clouds do not all come at one cover.
+const MANY_CLOUDS: usize = 8;
 
 /// The least light of the brightest hour: what is darker is a night.
 const LEAST_LIGHT: f64 = 0.25;

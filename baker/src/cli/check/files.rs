@@ -1,9 +1,9 @@
 //! The files that `welkin check` reads beside a pack, and the place of its page.
 
 use std::collections::BTreeMap;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow, bail};
 
@@ -55,7 +55,10 @@ pub fn read(path: &Path) -> Result<Vec<u8>> {
 
 /// The page is written over nothing that is read, by whatever path, and not into a pack.
 pub fn verify_apart(html: &Path, args: &CheckArgs) -> Result<()> {
+    let entries = fs::read_dir(&args.path).into_iter().flatten().flatten();
+    let of_pack: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
     let read = named(args).map(|(_, file)| file);
-    let read: Vec<&Path> = read.chain([args.path.as_path()]).collect();
+    let read = read.chain([args.path.as_path()]);
+    let read: Vec<&Path> = read.chain(of_pack.iter().map(PathBuf::as_path)).collect();
     Ok(place::verify_apart(&read, &[html])?)
 }

@@ -51,9 +51,13 @@ impl Recipe {
             cull: self.real(&name("cull"), &table.cull, default.cull, CULL[0], CULL[1])?,
             by_hand: Vec::new(),
         };
-        boxes::verify(&found).map_err(|Fault { found, expected }| {
-            self.refuse_at(&name("cull"), span, found, expected)
-        })?;
+        boxes::verify(&found).map_err(
+            |Fault {
+                 key: of_box,
+                 found,
+                 expected,
+             }| { self.refuse_at(&name(of_box), span, found, expected) },
+        )?;
         Ok(found)
     }
 

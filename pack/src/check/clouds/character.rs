@@ -26,30 +26,34 @@ const FINEST_CELL_TEXELS: u32 = 6;
 /// noise, seen on a plane half way between two layers of its lattice.
 const BAND_OCTAVES: f64 = -1.25;
 
-/// The widest level that is looked at: what an octave of a wider one adds says nothing new, and takes memory.
-const WIDEST: u32 = 1024;
+/// The narrowest level that is looked at, in texels: coarser ones have too few waves.
+const NARROWEST: u32 = 256;
 
-/// The image that tells the character of the channels: the first level that is not too wide.
-pub(super) fn view(texture: &Texture) -> View<'_> {
-    let level = (texture.width / WIDEST).max(1).ilog2() as usize;
-    texture.view(level.min(texture.levels.len() - 1), 0)
+/// Texels that a cell has at least.
+const CELL_TEXELS: u32 = 8;
+
+/// The narrowest level that shows noise of so many cells: what is finer says nothing new, and takes memory and time.
+pub(super) fn view(texture: &Texture, cells: u32) -> View<'_> {
+    let least = NARROWEST.max(cells.saturating_mul(CELL_TEXELS));
+    let widths = (0..texture.levels.len()).map(|level| texture.level_size(level).0);
+    let level = widths.take_while(|&width| width >= least).count();
+    texture.view(level.saturating_sub(1), 0)
 }
 
 /// The ranks of a channel's values, 0..1, as an image of one channel; equal values have the mean of their ranks.
 pub(super) fn ranks(image: View, channel: usize) -> Image {
     let values: Vec<f32> = image.channel(channel).collect();
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_unstable_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let value = |i: u32| values[i as usize];
+    let mut order: Vec<u32> = (0..values.len() as u32).collect();
+    order.sort_unstable_by(|&a, &b| value(a).total_cmp(&value(b)));
     let mut ranks = Image::new(image.width, image.height, 1);
     let mut start = 0;
     while start < order.len() {
-        let value = values[order[start]];
-        let count = order[start..]
-            .partition_point(|&i| values[i] <= value)
-            .max(1);
+        let here = value(order[start]);
+        let count = order[start..].partition_point(|&i| value(i) <= here).max(1);
         let rank = (start as f64 + count as f64 / 2.0) / order.len() as f64;
         for &i in &order[start..start + count] {
-            ranks.texels[i] = rank as f32;
+            ranks.texels[i as usize] = rank as f32;
         }
         start += count;
     }
@@ -93,10 +97,15 @@ pub(super) fn expected_band(noise: &FractalNoise, size: u32) -> f64 {
     sum / weights
 }
 
-/// How far the band may lie from what theory says. The energies of the waves of one octave are random, so the mean over
-/// its `c^2` waves strays by about `0.5 / c`; four of that, and a fifth of an octave for the theory's own error.
-pub(super) fn band_slack(noise: &FractalNoise) -> f64 {
-    0.2 + 2.0 / f64::from(noise.cells)
+/// How far the band may lie below and above what theory says. The energies of the waves of one octave are random, so the mean
+/// over its `c^2` waves strays by about `0.5 / c`; four of that, and a fifth of an octave for the theory's own error.
+///
+/// Where a share of the channel is clear, ranks see only the islands that are left, which are finer than the noise that they were
+/// cut from: by less than 0.4 octaves for each halving of what is left.
+pub(super) fn band_slack(noise: &FractalNoise, clear: f64) -> [f64; 2] {
+    let slack = 0.2 + 2.0 / f64::from(noise.cells);
+    let islands = 0.4 * libm::log2(1.0 / (1.0 - clear).max(1e-6));
+    [slack, slack + islands]
 }
 
 /// The fewest effective waves of noise: a quarter of `c^2`, and more than stripes have.
@@ -160,7 +169,7 @@ mod tests {
     fn ranks_forget_every_rising_curve_and_share_ties() {
         // Values that halves keep apart.
         let plain: Vec<f32> = (0..1024).map(|i| (i * 37 % 1024) as f32 / 1024.0).collect();
-        let bent: Vec<f32> = plain.iter().map(|v| 2.0 + v).collect();
+        let bent: Vec<f32> = plain.iter().map(|v| 0.25 * v).collect();
         assert_eq!(ranks_of(&plain), ranks_of(&bent));
         assert_eq!(
             ranks_of(&[0.5, 0.125, 0.5, 0.875]).texels,
