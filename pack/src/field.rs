@@ -75,6 +75,18 @@ pub struct Hour {
     pub most: f32,
 }
 
+impl Hour {
+    /// The least light that the brightest hour of a field has.
+    pub const LEAST_LIGHT: f32 = 0.25;
+
+    /// Ambient and the most direct light together, as luminance.
+    pub fn light(&self) -> f32 {
+        let [r, g, b] = self.colour;
+        // ITU-R BT.709-6, item 3.2.
+        self.ambient + self.most * (0.2126 * r + 0.7152 * g + 0.0722 * b)
+    }
+}
+
 /// A kind of cloud.
 ///
 /// World Meteorological Organization, "International Cloud Atlas", WMO-No. 407, 2017, section 2.3.

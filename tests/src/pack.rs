@@ -41,7 +41,8 @@ pub fn recipe_pack(name: &str) -> Pack {
         .expect("the pack bakes")
 }
 
-/// The default pack with `count` octaves of smooth noise: its own, again and again.
+/// The default pack with `count` octaves of smooth noise: its own, again and again. More than six have cells finer than two texels of
+/// its 256, so each stands four times side by side.
 ///
 /// # Panics
 /// If that is no pack.
@@ -49,7 +50,14 @@ pub fn with_octaves(count: usize) -> Pack {
     let mut sources = sources();
     for source in &mut sources {
         if source.role == Role::Fbm {
-            source.images = source.images.iter().cycle().take(count).cloned().collect();
+            let times = if count > 6 { 4 } else { 1 };
+            let images = source.images.iter().map(|image| repeated(image, times));
+            source.images = images
+                .collect::<Vec<_>>()
+                .into_iter()
+                .cycle()
+                .take(count)
+                .collect();
         }
     }
     build(None, sources)
@@ -66,6 +74,17 @@ pub fn changed_pack(noon_elevation_rad: Option<f32>, change: impl Fn(Role, &mut 
         .flat_map(|source| source.images.iter_mut().map(|image| (source.role, image)))
         .for_each(|(role, image)| change(role, image));
     build(noon_elevation_rad, sources)
+}
+
+/// An image that tiles, so many times along u and along v.
+fn repeated(image: &Image, times: u32) -> Image {
+    let (width, height) = (times * image.width, times * image.height);
+    let mut out = Image::new(width, height, image.channels);
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        let texel = image.texel(x % image.width, y % image.height);
+        out.texel_mut(x, y).copy_from_slice(texel);
+    }
+    out
 }
 
 /// The default pack in a skybox that has one radiance all around.

@@ -121,6 +121,15 @@ fn seam(map: &Cubemap) -> f64 {
     across / within
 }
 
+/// A sky without its stars. They are points, of which some lie on edges, and each would change the mean by chance; that they
+/// keep their light over all faces of a cube is asked in tests/tests/stars.rs.
+fn starless(params: SkyParams) -> SkyParams {
+    SkyParams {
+        stars: false,
+        ..params
+    }
+}
+
 /// Without a seam both are gaps of the same sky, on lines three texels apart, and their means are alike but for chance: at 1. A seam adds
 /// itself to the one and not to the other; where it is as large as what the sky does by itself, it is at 2. Half of that would not be seen.
 const NO_SEAM: f64 = 1.5;
@@ -140,7 +149,7 @@ fn faces_of_every_method_meet_by_day_at_sunset_and_by_night() {
     let mut sky = sky();
     for method in Method::ALL {
         for (hour, params) in hours(method) {
-            let map = sky.cubemap(&view(params), SIDE).unwrap();
+            let map = sky.cubemap(&view(starless(params)), SIDE).unwrap();
             assert!(
                 map.faces
                     .iter()

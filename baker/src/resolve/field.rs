@@ -65,9 +65,9 @@ impl Recipe {
             && sections > 0
             && settings.layers.iter().all(|layer| layer.cover == 0.0)
             && are_alike
-            && copies >= 8
+            && copies >= 20
         {
-            let expected = "ranks that differ, for eight copies and more in all, or none: then they come one after another";
+            let expected = "ranks that differ, for twenty copies and more in all, or none: then they come one after another";
             let span = self.field_span();
             return Err(self.refuse_at("field.models[0].rank", span, rank, expected));
         }
@@ -215,6 +215,14 @@ impl Recipe {
                 let expected = format!("over {}: the hours in the order of time", pair[0].time);
                 return Err(self.refuse_at(&key, span, pair[1].time, expected));
             }
+        }
+        let brightest = hours.iter().map(Hour::light).fold(0.0, f32::max);
+        if brightest < Hour::LEAST_LIGHT {
+            let expected = format!(
+                "an hour with {} of `ambient` and `colour` together, or the clouds are always dark",
+                Hour::LEAST_LIGHT
+            );
+            return Err(self.refuse_at("field.hours", first.span(), brightest, expected));
         }
         Ok(hours)
     }

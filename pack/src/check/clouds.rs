@@ -32,6 +32,12 @@ const CLEAR_SHARES: [f64; 3] = [0.05, 0.002, 0.002];
 /// bytes have rounded half of them away; noise of a single cell reached 0.6.
 const MOST_ALIKE: f64 = 0.8;
 
+/// The same of two channels of few cells, which chance can make much alike: 0.904 in one of 3200 random recipes.
+const MOST_ALIKE_FEW: f64 = 0.98;
+
+/// Noise of fewer cells across the tile has so few waves that chance rules it.
+const FEW_CELLS: u32 = 4;
+
 /// Effective waves of a photograph: three pairs. The built-in one has 40.
 const LEAST_PHOTO_WAVES: f64 = 6.0;
 
@@ -90,11 +96,14 @@ fn check_character(report: &mut Report, texture: &Texture, entry: Option<&Textur
     let ranks = [PHOTO, NOISE, DETAIL].map(|channel| character::ranks(view, channel));
     for (a, b) in [(PHOTO, NOISE), (NOISE, DETAIL), (PHOTO, DETAIL)] {
         let [first, second] = [a, b].map(|c| Role::Clouds.spec().channels[c].name);
+        let cells = [a, b].map(|c| Some(entry?.channels.get(c)?.fractal?.cells));
+        let are_few = cells.iter().all(|n| n.is_some_and(|n| n < FEW_CELLS));
+        let most = if are_few { MOST_ALIKE_FEW } else { MOST_ALIKE };
         report.measure(
             CLOUD_APART,
             &format!("{} {first}, {second}", Role::Clouds.name()),
             character::likeness(&ranks[a], &ranks[b]),
-            Bound::AtMost(MOST_ALIKE),
+            Bound::AtMost(most),
         );
     }
 }
@@ -125,7 +134,8 @@ fn check_fractal(
 ) {
     let name = subject(Role::Clouds, channel);
     let expected = character::expected_band(noise, spectrum.size());
-    let clear = image.channel(channel).filter(|v| *v == 0.0).count() as f64
+    // Up to two steps of a byte: what is as thin is as good as clear to ranks of bytes.
+    let clear = image.channel(channel).filter(|v| *v < 2.5 / 255.0).count() as f64
         / (f64::from(image.width) * f64::from(image.height));
     let [below, above] = character::band_slack(noise, clear);
     report.measure(
@@ -134,9 +144,11 @@ fn check_fractal(
         character::band(spectrum),
         Bound::Within(expected - below, expected + above),
     );
-    // The bake meets it to a thousandth; bytes round by half a step, all the same way at worst.
+    // The bake meets it to a thousandth; bytes round by half a step, all the same way at worst. Of a few cells no curve may make a
+    // mean that is very low.
     let (mean, declared) = (image.mean_and_spread(channel).0, noise.mean);
-    let slack = 0.001 + 0.5 / 255.0;
+    let is_met = noise.cells >= FEW_CELLS;
+    let slack = if is_met { 0.001 + 0.5 / 255.0 } else { 0.03 };
     report.measure(
         CLOUD_MEAN,
         &name,
@@ -152,6 +164,9 @@ const FEW: f64 = 2.0 / 8.0;
 /// Meteorological Organization, "Manual on Codes", WMO-No. 306, code table 2700).
 const BROKEN: f64 = 5.0 / 8.0;
 
+/// The least of the sky that has cloud at full cover: three oktas, from which on it is "scattered" in the same table.
+const LEAST_OVERCAST: f64 = 3.0 / 8.0;
+
 /// What is thinner than this shows no cloud.
 const THIN: f64 = 0.1;
 
@@ -160,7 +175,7 @@ const THIN: f64 = 0.1;
 /// The two shape channels drift against each other, so over time every value of one meets every value
 /// of the other: the share is that of pairs with `photo + noise (1 - photo) > 1 - cover`. How thick clouds are is free, but
 /// the parameter must be able to open the sky and to shut it: little cover leaves more sky open than a broken one has, and
-/// at full cover and density 0.5, which doubles what is left (line 21 of Roden and Parberry, 2005), more than half of it is
+/// at full cover and density 0.5, which doubles what is left (line 21 of Roden and Parberry, 2005), more than three oktas of it are
 /// thicker than a tenth.
 fn check_cover(report: &mut Report, texture: &Texture) {
     let [photo, noise] = [PHOTO, NOISE].map(|channel| histogram(texture, channel));
@@ -186,7 +201,7 @@ fn check_cover(report: &mut Report, texture: &Texture) {
         CLOUD_COVER,
         "overcast",
         share(THIN / 2.0),
-        Bound::AtLeast(0.5),
+        Bound::AtLeast(LEAST_OVERCAST),
     );
 }
 

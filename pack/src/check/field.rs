@@ -6,7 +6,7 @@ use super::rule::{
     FIELD_RANK, FIELD_SIZE, FIELD_SPREAD,
 };
 use crate::Field;
-use crate::field::{Cloud, Sprite};
+use crate::field::{Cloud, Hour, Sprite};
 use crate::manifest::FieldEntry;
 
 /// What reports call it.
@@ -65,28 +65,15 @@ fn check_sizes(report: &mut Report, field: &Field) {
 }
 
 /// As many clouds do not all come at one cover.
-const MANY_CLOUDS: usize = 8;
+const MANY_CLOUDS: usize = 20;
 
 /// The least light of the brightest hour: what is darker is a night.
-const LEAST_LIGHT: f64 = 0.25;
+const LEAST_LIGHT: f64 = Hour::LEAST_LIGHT as f64;
 
 fn check_light(report: &mut Report, field: &Field) {
-    let light = |hour: &crate::field::Hour| {
-        let [r, g, b] = hour.colour.map(f64::from);
-        // ITU-R BT.709-6, item 3.2.
-        f64::from(hour.ambient) + f64::from(hour.most) * (0.2126 * r + 0.7152 * g + 0.0722 * b)
-    };
-    let brightest = field.hours.iter().map(light).fold(0.0, f64::max);
-    let darkest = field.hours.iter().map(light).fold(f64::INFINITY, f64::min);
+    let light = field.hours.iter().map(Hour::light);
+    let brightest = f64::from(light.fold(0.0, f32::max));
     report.measure(FIELD_LIGHT, SUBJECT, brightest, Bound::AtLeast(LEAST_LIGHT));
-    let is_a_day = field.hours.len() > 1;
-    let most = if is_a_day { 0.8 * brightest } else { brightest };
-    report.measure(
-        FIELD_LIGHT,
-        &format!("{SUBJECT} darkest"),
-        darkest,
-        Bound::AtMost(most),
-    );
 }
 
 fn check_counts(report: &mut Report, field: &Field) {

@@ -124,6 +124,6 @@ rules! {
     FIELD_HOURS = error("field-hours", "The light of the clouds is in the order of time, and its numbers in range.");
     FIELD_SPREAD = error("field-spread", "The ranks of the clouds differ, so that they come one after another.");
     FIELD_SIZE = error("field-size", "No sprite is far larger than its cloud.");
-    FIELD_LIGHT = error("field-light", "There is an hour with light on the clouds, and one with much less.");
+    FIELD_LIGHT = error("field-light", "There is an hour with light on the clouds.");
     FIELD_COUNTS = warning("field-counts", "Clouds have 5 to 400 sprites, boxes 1 to 100, and sections 20 to 200 boxes.");
 }

@@ -118,18 +118,11 @@ fn sprites_far_larger_than_their_cloud_are_told() {
 }
 
 #[test]
-fn clouds_without_light_or_night_are_told() {
+fn clouds_without_light_are_told() {
     let dark = with_field(|f| {
         for hour in &mut f.hours {
             (hour.ambient, hour.colour) = (0.0, [0.0; 3]);
         }
     });
     assert_only("field-light", &dark);
-    let even = with_field(|f| {
-        let noon = f.hours[2];
-        for hour in &mut f.hours {
-            (hour.ambient, hour.colour) = (noon.ambient, noon.colour);
-        }
-    });
-    assert_only("field-light", &even);
 }
