@@ -1,6 +1,8 @@
 //! Packs that are well formed, with true hashes and a true seal, and do not hold what they say: each is refused, and by the rule
 //! that is meant for it.
 
+#![allow(clippy::unwrap_used)]
+
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
@@ -170,7 +172,6 @@ impl Table {
     }
 
     fn end(self, least: usize) {
-        println!("{} forgeries", self.count);
         assert!(self.missed.is_empty(), "{:#?}", self.missed);
         assert!(self.count >= least, "{}", self.count);
     }

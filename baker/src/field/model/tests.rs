@@ -395,7 +395,7 @@ fn square(node: Value) -> Value {
 
 #[test]
 fn a_node_with_a_cell_is_a_sprite_where_it_was_put() {
-    let half = (0.25_f32).sin_cos();
+    let half = libm::sincosf(0.25);
     let node = json!({
         "mesh": 0, "translation": [100, 40, -7.5], "scale": [300, 200, 1],
         "rotation": [0, 0, half.0, half.1], "extras": {"cell": 12, "group": 3},
