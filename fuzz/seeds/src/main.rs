@@ -22,6 +22,7 @@ name = "small"
 size = 32
 [clouds]
 size = 64
+photo.file = "clouds.jpg"
 [stars]
 size = 64
 count = 60
@@ -159,7 +160,7 @@ fn small_pack() -> anyhow::Result<Pack> {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets-src/photos/clouds-web.jpg");
     let files = BTreeMap::from([
         ("sky.png".to_string(), bytes.into_inner()),
-        (welkin_baker::BUILT_IN_PHOTO.to_string(), fs::read(photo)?),
+        ("clouds.jpg".to_string(), fs::read(photo)?),
     ]);
     let resolved = Recipe::parse("small.toml", SMALL)?.resolve(None)?;
     let pack = welkin_baker::bake_from(&resolved, Inputs::Memory(&files), &|_| {

@@ -32,7 +32,7 @@ const CLEAR_SHARES: [f64; 3] = [0.05, 0.002, 0.002];
 /// bytes have rounded half of them away; noise of a single cell reached 0.6.
 const MOST_ALIKE: f64 = 0.8;
 
-/// The same of two channels of few cells, which chance can make much alike: 0.904 in one of 3200 random recipes.
+/// The same if one of the two has few cells: chance can make waves alike that are few, 0.904 in one of 3200 random recipes.
 const MOST_ALIKE_FEW: f64 = 0.98;
 
 /// Noise of fewer cells across the tile has so few waves that chance rules it.
@@ -76,12 +76,22 @@ fn check_character(report: &mut Report, texture: &Texture, entry: Option<&Textur
         let ranks = character::ranks(view, channel);
         let spectrum = Spectrum::new(ranks.width, ranks.channel(0));
         let least = match noise {
-            Some(noise) => character::least_waves(noise, view.width),
-            None if channel == PHOTO => LEAST_PHOTO_WAVES,
-            None => character::STRIPES,
+            Some(noise) if noise.cells < FEW_CELLS => None,
+            Some(noise) => Some(character::least_waves(noise, view.width)),
+            None if channel == PHOTO => Some(LEAST_PHOTO_WAVES),
+            None => Some(character::STRIPES),
         };
-        let waves = character::waves(&spectrum);
-        report.measure(CLOUD_WAVES, &name, waves, Bound::AtLeast(least));
+        match least {
+            Some(least) => {
+                let waves = character::waves(&spectrum);
+                report.measure(CLOUD_WAVES, &name, waves, Bound::AtLeast(least));
+            }
+            None => report.skip(
+                CLOUD_WAVES,
+                &name,
+                "noise of fewer than four cells may be a single wave",
+            ),
+        }
         match noise {
             Some(noise) => check_fractal(report, image, channel, noise, &spectrum),
             None if channel == PHOTO => {}
@@ -97,7 +107,7 @@ fn check_character(report: &mut Report, texture: &Texture, entry: Option<&Textur
     for (a, b) in [(PHOTO, NOISE), (NOISE, DETAIL), (PHOTO, DETAIL)] {
         let [first, second] = [a, b].map(|c| Role::Clouds.spec().channels[c].name);
         let cells = [a, b].map(|c| Some(entry?.channels.get(c)?.fractal?.cells));
-        let are_few = cells.iter().all(|n| n.is_some_and(|n| n < FEW_CELLS));
+        let are_few = cells.iter().any(|n| n.is_some_and(|n| n < FEW_CELLS));
         let most = if are_few { MOST_ALIKE_FEW } else { MOST_ALIKE };
         report.measure(
             CLOUD_APART,
@@ -133,7 +143,7 @@ fn check_fractal(
     spectrum: &Spectrum,
 ) {
     let name = subject(Role::Clouds, channel);
-    let expected = character::expected_band(noise, spectrum.size());
+    let expected = character::expected_band(noise, image.width, spectrum.size());
     // Up to two steps of a byte: what is as thin is as good as clear to ranks of bytes.
     let clear = image.channel(channel).filter(|v| *v < 2.5 / 255.0).count() as f64
         / (f64::from(image.width) * f64::from(image.height));

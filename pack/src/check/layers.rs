@@ -18,21 +18,21 @@ const RANK: usize = 3;
 /// shows as single texels.
 const WAVE_TEXELS: f64 = 5.0;
 
-/// The largest ratio of differences across the edge to those inside, over the usual bound.
+/// The largest ratio of steps across the edge to those inside, over the usual bound.
 ///
-/// Clouds are long parts of the tile: along a line the mean is of few independent squares. If they are five and
-/// there are twelve independent lines, less than a cirrus has, then chance exceeds 2 five times in a hundred million
-/// (the integral of `f(x) F(x / k^2)^12`, where `f` and `F` are the law of chi squared over its five degrees
-/// of freedom and `k` is twice 1.28). A layer that does not tile has 3 and more.
-const MOST_SEAM: f64 = 2.0;
+/// Clouds are long parts of the tile: along a line the mean is of few independent squares. If they are two and
+/// there are twelve independent lines, less than a cirrus has, then chance exceeds 1.5 once in ten million
+/// (the integral of `f(x) F(x / k^2)^12`, where `f` and `F` are the law of chi squared over its two degrees
+/// of freedom and `k` is 1.5 times 2.5). A layer that does not tile has 2.5 and more.
+const MOST_SEAM: f64 = 1.5;
 
 /// The least root mean square slope: half of what the format asks, of which rounding takes less than a tenth.
 const LEAST_RELIEF: f64 = 0.05;
 
 pub(super) fn check(report: &mut Report, texture: &Texture) {
     for channel in [DENSITY, RANK] {
-        // The other levels are shown to be means of this one, and normals to be periodic differences.
-        let seam = tiling::seam(texture, channel, 1);
+        // Normals are shown to be periodic differences.
+        let seam = tiling::seam(texture, channel);
         report.measure(
             SEAM,
             &subject(Role::Layers, channel),

@@ -59,7 +59,7 @@ rules! {
     FINITE = error("finite", "Every value that a half float stores is a finite number, on every level.");
     MIP_MEAN = error("mip-mean", "Every level has the mean of level 0.");
     LEVEL_MEAN = error("level-mean", "Every texel of a level is the mean of the texels above it.");
-    SEAM = error("seam", "Across the edges a tiling channel changes no more than inside, on both axes and every level.");
+    SEAM = error("seam", "Across the edges a tiling channel changes no more than inside, on both axes.");
     SMOOTH = error("smooth", "Cloud channels are smooth at the texel.");
     CLOUD_SPREAD = error("cloud-spread", "Cloud channels are neither flat nor black and white.");
     CLOUD_COVER = error("cloud-cover", "The sky is open at little cover and shut at full cover.");

@@ -6,28 +6,29 @@ use super::subject;
 use crate::view::View;
 use crate::{Format, Role, Texture};
 
-/// Compares the difference across the edges with the differences inside, on both axes, every level and layer.
+/// Compares the step across the edges with the steps inside, on both axes of every layer. Level 0 is enough: the others are shown to
+/// be means of it.
 pub(super) fn check_seam(report: &mut Report, role: Role, texture: &Texture, channel: usize) {
-    let worst = seam(texture, channel, texture.levels.len());
+    let worst = seam(texture, channel);
     report.measure(SEAM, &subject(role, channel), worst, Bound::AtMost(1.0));
 }
 
-/// The worst ratio, on the first `levels`, of the root mean square difference across the edge to the largest one
-/// between two neighbouring rows or columns inside, over its bound at that level.
+/// The worst ratio, on level 0, of the root mean square step across the edge to the largest one between two neighbouring
+/// rows or columns inside, over its bound.
 ///
-/// In a channel that tiles the edge is a place like any other, so the ratio seldom reaches 1; small levels have few
-/// rows to take the largest from, hence the slack of 8 / rows.
-pub(super) fn seam(texture: &Texture, channel: usize, levels: usize) -> f64 {
+/// The step is what the difference of two lines has beyond the mean of the differences next to it: in a smooth picture the slope
+/// goes on, whereas a cut is in one difference alone. In a channel that tiles the edge is a place like any other, so a ratio above 1
+/// is rare and one above 2.5 all but impossible; small textures have few rows to take the largest from, hence the slack of 16 / rows.
+/// Three quarters of the texels of a side, cut out anywhere, have twice the bound and more.
+pub(super) fn seam(texture: &Texture, channel: usize) -> f64 {
     let mut worst = 0.0_f64;
-    let images = (0..levels)
-        .flat_map(|level| (0..texture.layers).map(move |layer| texture.view(level, layer)));
-    for image in images {
+    for image in (0..texture.layers).map(|layer| texture.view(0, layer)) {
         for axis in [Axis::X, Axis::Y] {
-            let (inside, across) = differences(image, channel, axis);
+            let (inside, across) = steps(image, channel, axis);
             let Some(largest) = inside.into_iter().reduce(f64::max) else {
                 continue;
             };
-            let slack = 1.25 + 8.0 / f64::from(axis.length(image));
+            let slack = 2.5 + 16.0 / f64::from(axis.length(image));
             worst = worst.max(across / ((largest + HALF_STEP) * slack));
         }
     }
@@ -108,24 +109,27 @@ impl Axis {
     }
 }
 
-/// Root mean square differences between each line and the next, and between the last and the first.
-fn differences(image: View, channel: usize, axis: Axis) -> (Vec<f64>, f64) {
+/// Root mean square steps between each line and the next, of those that do not reach over the edge, and at the edge.
+fn steps(image: View, channel: usize, axis: Axis) -> (Vec<f64>, f64) {
     let (length, breadth) = match axis {
         Axis::X => (image.width, image.height),
         Axis::Y => (image.height, image.width),
     };
     let at = |along: u32, across: u32| match axis {
-        Axis::X => f64::from(image.texel(along, across)[channel]),
-        Axis::Y => f64::from(image.texel(across, along)[channel]),
+        Axis::X => f64::from(image.texel(along % length, across)[channel]),
+        Axis::Y => f64::from(image.texel(across, along % length)[channel]),
     };
-    let difference = |a: u32, b: u32| {
-        let sum: f64 = (0..breadth)
-            .map(|i| (at(a, i) - at(b, i)) * (at(a, i) - at(b, i)))
-            .sum();
-        libm::sqrt(sum / f64::from(breadth))
+    // Between the second and the third of four lines: 1.5 times their difference less half of that of the outer two.
+    let step = |first: u32| {
+        let square = |i: u32| {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|k| at(first + k, i));
+            let step = 1.5 * (c - b) - 0.5 * (d - a);
+            step * step
+        };
+        libm::sqrt((0..breadth).map(square).sum::<f64>() / f64::from(breadth))
     };
-    let inside = (1..length).map(|i| difference(i - 1, i)).collect();
-    (inside, difference(length - 1, 0))
+    let inside = (0..length.saturating_sub(3)).map(step).collect();
+    (inside, step(length.max(2) - 2))
 }
 
 #[cfg(test)]
@@ -166,6 +170,30 @@ mod tests {
                 let found = roughness(stored(format, slope, 0.0).view(0, 0), format, 0);
                 assert!(found < 0.9, "{format:?} {slope}: {found}");
             }
+        }
+    }
+
+    #[test]
+    fn a_part_that_was_cut_out_has_twice_the_bound_and_more() {
+        let tile = crate::test_pack::waves(128, 5);
+        let cut = |side: usize| {
+            let rows = tile.chunks_exact(128).take(side);
+            let texels: Vec<f32> = rows
+                .flat_map(|row| row[..side].iter().flat_map(|&v| [v; 4]))
+                .collect();
+            let texture = Texture {
+                format: Format::Rgba8Unorm,
+                shape: Shape::D2,
+                width: side as u32,
+                height: side as u32,
+                layers: 1,
+                levels: vec![encode(Format::Rgba8Unorm, &texels)],
+            };
+            seam(&texture, 0)
+        };
+        assert!(cut(128) < 0.5, "{}", cut(128));
+        for side in [96, 101, 110] {
+            assert!(cut(side) > 2.0, "{side}: {}", cut(side));
         }
     }
 

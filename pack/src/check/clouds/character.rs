@@ -80,45 +80,58 @@ pub(super) fn band(spectrum: &Spectrum) -> f64 {
     sum / spectrum.total().max(f64::MIN_POSITIVE)
 }
 
-/// The same of noise with these octaves, from theory. Below wave number 1 there is nothing.
-pub(super) fn expected_band(noise: &FractalNoise, size: u32) -> f64 {
-    let finest = f64::from((size / FINEST_CELL_TEXELS).max(1));
+/// The same of noise with these octaves, from theory: made for `base` texels a side, and seen where it was averaged to `size`. Below
+/// wave number 1 there is nothing.
+pub(super) fn expected_band(noise: &FractalNoise, base: u32, size: u32) -> f64 {
+    let finest = f64::from((base / FINEST_CELL_TEXELS).max(1));
     let (mut sum, mut weights) = (0.0, 0.0);
-    let (mut weight, mut cells) = (1.0, f64::from(noise.cells));
+    let (mut energy, mut cells) = (1.0, f64::from(noise.cells));
     for octave in 0..noise.octaves {
         if octave > 0 && cells > finest {
             break;
         }
-        sum += weight * (libm::log2(cells) + BAND_OCTAVES).max(0.0);
+        let wave_number = (cells * libm::exp2(BAND_OCTAVES)).max(1.0);
+        let weight = energy * averaging(wave_number, base, size);
+        sum += weight * libm::log2(wave_number.min(f64::from(size) / 2.0));
         weights += weight;
-        weight *= f64::from(noise.gain) * f64::from(noise.gain);
+        energy *= f64::from(noise.gain) * f64::from(noise.gain);
         cells *= 2.0;
     }
     sum / weights
 }
 
-/// How far the band may lie below and above what theory says. The energies of the waves of one octave are random, so the mean
-/// over its `c^2` waves strays by about `0.5 / c`, farther downwards, where there are fewer waves: eight of that below and four
-/// above, and a quarter of an octave for the theory's own error. In 4800 default packs of the smallest size, the widest was 0.57
-/// octaves below at eight cells.
+/// How much of a wave's energy is left where `base / size` texels along each axis are averaged to one: `(sin (m x) / (m sin x))^2` an
+/// axis, for a wave along the diagonal.
+fn averaging(wave_number: f64, base: u32, size: u32) -> f64 {
+    let texels = f64::from(base / size);
+    let half_turn =
+        std::f64::consts::PI * wave_number * std::f64::consts::FRAC_1_SQRT_2 / f64::from(base);
+    let left = libm::sin(texels * half_turn) / (texels * libm::sin(half_turn));
+    libm::pow(left, 4.0)
+}
+
+/// How far the band may lie below and above what theory says. The energies of the waves of one octave are random, and the logarithms
+/// of their wave numbers differ by about half an octave, so the mean over its `c^2` waves strays by `0.5 / c`: five of that, which
+/// chance exceeds less than once in a million, and a quarter of an octave for the theory's own error.
 ///
 /// Where a share of the channel is clear, ranks see only the islands that are left, which are finer than the noise that they were
 /// cut from: by less than 0.6 octaves for each halving of what is left.
 pub(super) fn band_slack(noise: &FractalNoise, clear: f64) -> [f64; 2] {
-    let cells = f64::from(noise.cells);
+    let chance = 0.25 + 2.5 / f64::from(noise.cells);
     let islands = 0.6 * libm::log2(1.0 / (1.0 - clear).max(1e-6));
-    [0.25 + 4.0 / cells, 0.25 + 2.2 / cells + islands]
+    [chance, chance + islands]
 }
 
-/// The fewest effective waves of noise: a quarter of `c^2`, and more than stripes have.
+/// The fewest effective waves of noise that is not of few cells: a quarter of `c^2`, where chance makes that from a third (once in
+/// ten thousand at four cells) to three.
 pub(super) fn least_waves(noise: &FractalNoise, size: u32) -> f64 {
     // What is cut by the texels has no more waves than they have.
     let cells = f64::from(noise.cells.min(size / FINEST_CELL_TEXELS));
-    (0.25 * cells * cells).max(STRIPES)
+    0.25 * cells * cells
 }
 
-/// Effective waves that stripes have, with a little of another; noise of one cell reached 2.13.
-pub(super) const STRIPES: f64 = 2.05;
+/// More effective waves than stripes have: a sine has two, its ranks, which are a triangle, 2.06.
+pub(super) const STRIPES: f64 = 2.1;
 
 /// How far the gradients of two channels, given as ranks, are alike: the mean of `cos^2` of their angle.
 pub(super) fn likeness(a: &Image, b: &Image) -> f64 {
