@@ -171,16 +171,14 @@ fuzz: fuzz-build ## Feed every reader with damaged files, SECONDS each: `make fu
 aarch64: aarch64-tools ## Bake the default pack as a 64-bit ARM processor does, and compare it byte by byte
 	$(CARGO) build --release --locked -p welkin-baker
 	CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc CC_aarch64_unknown_linux_gnu=aarch64-linux-gnu-gcc \
-	  $(CARGO) build --release --locked --target $(AARCH64) -p welkin-baker
+	  CARGO_TARGET_DIR=target/aarch64 scripts/cross-cargo $(AARCH64) build --release --locked -p welkin-baker
 	mkdir -p out
 	$(WELKIN) bake -o out/pack-here --force
-	qemu-aarch64 -L /usr/aarch64-linux-gnu target/$(AARCH64)/release/welkin bake -o out/pack-aarch64 --force
+	qemu-aarch64 -L /usr/aarch64-linux-gnu target/aarch64/$(AARCH64)/release/welkin bake -o out/pack-aarch64 --force
 	sha256sum out/pack-here/* out/pack-aarch64/*
 	diff -r out/pack-here out/pack-aarch64
 
-# The standard library for it comes from rustup, the rest from Debian.
 aarch64-tools:
-	@[ -d "$$(rustc --print sysroot)/lib/rustlib/$(AARCH64)" ] || rustup target add $(AARCH64)
 	@command -v aarch64-linux-gnu-gcc >/dev/null && command -v qemu-aarch64 >/dev/null && [ -d /usr/aarch64-linux-gnu/include ] \
 	  || scripts/apt-install gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user
 

@@ -246,8 +246,12 @@ fn power_for_mean(values: &[f32], mean: f32) -> f32 {
             });
         (sum / values.len() as f64) as f32
     };
-    // The mean falls as the power grows. Twenty halvings of the exponent's logarithm are enough.
+    // The mean falls as the power grows. Noise of a cell or two has broad crests and needs more for a low mean. Twenty halvings of
+    // the exponent's logarithm are enough.
     let (mut least, mut most) = (1.0 / 64.0_f32, 64.0_f32);
+    if mean_of(most) > mean {
+        (least, most) = (most, most * most);
+    }
     for _ in 0..20 {
         let middle = libm::sqrtf(least * most);
         if mean_of(middle) > mean {

@@ -163,7 +163,7 @@ fn pictures_must_show_something_that_ends_inside() {
     pictures[3] = png(RgbaImage::new(32, 32));
     told(
         from_cells(&pictures).unwrap_err(),
-        &["3.png", "mean alpha is 0.000", "0.02 to 0.785"],
+        &["3.png", "mean alpha is 0.000", "0.01 to 0.785"],
     );
     let mut sheet = discs(32);
     sheet.put_pixel(63, 40, Rgba([9, 9, 9, 99]));

@@ -15,7 +15,7 @@ use welkin_pack::{Role, Texture};
 
 use super::CheckArgs;
 use super::page::{self, Page};
-use super::{bake, file, interrupt, output};
+use super::{bake, file, input, interrupt, output};
 
 const SOUND: u8 = 0;
 const PROBLEMS: u8 = 1;
@@ -109,7 +109,7 @@ fn prove(examined: &mut Examined, args: &CheckArgs) -> Result<()> {
 fn check_file(args: &CheckArgs, wanted: As) -> Result<Checked> {
     let As { role, channel } = wanted;
     let name = args.path.display().to_string();
-    let bytes = files::read(&args.path)?;
+    let bytes = input::bytes(&args.path)?;
     let file = decode_texture(&bytes, &name, role, channel)?;
     file.notes
         .iter()

@@ -1,4 +1,4 @@
-//! What commands read: a pack, a recipe. Ctrl-C ends them even while a pipe gives nothing.
+//! What commands read: a pack, a recipe, a picture. Ctrl-C ends them even while a pipe gives nothing.
 
 use std::fs::File;
 use std::io::Read;
@@ -13,6 +13,9 @@ use super::interrupt;
 /// A recipe has some dozens of lines; what is larger is something else.
 const MAX_RECIPE_BYTES: u64 = 1 << 20;
 
+/// The largest file of a texture or picture.
+const MAX_BYTES: u64 = 256 << 20;
+
 pub fn pack(folder: &Path) -> Result<Pack> {
     let folder = folder.to_path_buf();
     Ok(interrupt::unless_requested(move || Pack::open(folder))??)
@@ -25,14 +28,29 @@ pub fn recipe(path: &Path) -> Result<Recipe> {
 
 fn read_recipe(path: &Path) -> Result<Recipe> {
     let name = path.display().to_string();
-    let unreadable = |e| anyhow!("{name}: cannot be read: {e}; expected a recipe in TOML");
-    let mut text = String::new();
-    let file = File::open(path).map_err(unreadable)?;
-    file.take(MAX_RECIPE_BYTES + 1)
-        .read_to_string(&mut text)
-        .map_err(unreadable)?;
-    if text.len() as u64 > MAX_RECIPE_BYTES {
-        bail!("{name}: is larger than {MAX_RECIPE_BYTES} bytes, expected a recipe in TOML");
-    }
+    let expected = "expected a recipe in TOML";
+    let bytes = read(path, MAX_RECIPE_BYTES, expected)?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| anyhow!("{name}: cannot be read: it is not UTF-8; {expected}"))?;
     Ok(Recipe::parse(&name, &text)?)
+}
+
+/// The bytes of a file that is no larger than what a bake reads.
+pub fn bytes(path: &Path) -> Result<Vec<u8>> {
+    let path = path.to_path_buf();
+    interrupt::unless_requested(move || read(&path, MAX_BYTES, "check its name and size"))?
+}
+
+fn read(path: &Path, most: u64, advice: &str) -> Result<Vec<u8>> {
+    let name = path.display();
+    let unreadable = |e| anyhow!("{name}: cannot be read: {e}; {advice}");
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(unreadable)?;
+    file.take(most + 1)
+        .read_to_end(&mut bytes)
+        .map_err(unreadable)?;
+    if bytes.len() as u64 > most {
+        bail!("{name}: is larger than {most} bytes; {advice}");
+    }
+    Ok(bytes)
 }

@@ -38,7 +38,7 @@ impl SheetCell {
     pub const COUNT: u8 = 16;
 
     /// Least and greatest mean opacity of a cell: less shows nothing, and a disc as wide as the cell has no more.
-    pub const OPACITY: [f32; 2] = [0.02, std::f32::consts::FRAC_PI_4];
+    pub const OPACITY: [f32; 2] = [0.01, std::f32::consts::FRAC_PI_4];
 
     /// The cells of each kind: fog in the upper row, the flat bottom in its right corner, puffs in the two lowest rows, as in
     /// the article, and wisps in what is left.

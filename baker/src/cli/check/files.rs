@@ -1,18 +1,14 @@
 //! The files that `welkin check` reads beside a pack, and the place of its page.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::Read;
+use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, bail};
 
 use welkin_pack::place;
 
-use crate::cli::CheckArgs;
-
-/// The largest file that is read: what a bake reads too.
-const MAX_BYTES: u64 = 256 << 20;
+use crate::cli::{CheckArgs, input};
 
 /// The key of a recipe that `--photo` stands for.
 const PHOTO_KEY: &str = "clouds.photo.file";
@@ -28,7 +24,7 @@ fn named(args: &CheckArgs) -> impl Iterator<Item = (&str, &Path)> {
 pub fn given(args: &CheckArgs) -> Result<BTreeMap<String, Vec<u8>>> {
     let mut given = BTreeMap::new();
     for (key, file) in named(args) {
-        if given.insert(key.to_string(), read(file)?).is_some() {
+        if given.insert(key.to_string(), input::bytes(file)?).is_some() {
             bail!(
                 "{}: a file for `{key}` was given already; give one",
                 file.display()
@@ -36,21 +32,6 @@ pub fn given(args: &CheckArgs) -> Result<BTreeMap<String, Vec<u8>>> {
         }
     }
     Ok(given)
-}
-
-/// Reads a file of at most 256 MiB.
-pub fn read(path: &Path) -> Result<Vec<u8>> {
-    let shown = path.display();
-    let failed = |e| anyhow!("{shown}: cannot be read: {e}; check its name");
-    let mut bytes = Vec::new();
-    let file = File::open(path).map_err(failed)?;
-    file.take(MAX_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(failed)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        bail!("{shown}: is over 256 MiB, expected at most 256 MiB; save it smaller");
-    }
-    Ok(bytes)
 }
 
 /// The page is written over nothing that is read, by whatever path, and not into a pack.

@@ -89,7 +89,7 @@ fn grey_that_was_averaged_with_nothing_makes_dark_rims_but_no_error() {
 #[test]
 fn an_empty_or_a_full_cell_is_an_error() {
     for index in 0..SheetCell::COUNT {
-        let empty = with_cells(|cell| cell.0 == index, |_, _, t| t[1] *= 0.05);
+        let empty = with_cells(|cell| cell.0 == index, |_, _, t| t[1] *= 0.01);
         assert_only("sprite-cells", &empty);
         let full = with_cells(
             |cell| cell.0 == index,
