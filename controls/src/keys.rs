@@ -2,8 +2,8 @@
 
 mod make;
 
+use welkin_runtime::params::{CUSTOM, TURBIDITY};
 use welkin_runtime::params::{FORMATION_INTERVAL_S, MAX_OCTAVES};
-use welkin_runtime::perez::{CUSTOM, TURBIDITY};
 use welkin_runtime::{Method, SkyModel};
 
 use crate::key::{Group, Input, Key, Slot};

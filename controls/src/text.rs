@@ -1,6 +1,6 @@
 //! Text of the settings that are no plain number: one pair of functions each, from the settings and into them.
 
-use welkin_runtime::cie::LAST_OVERCAST;
+use welkin_runtime::clear_sky::cie::LAST_OVERCAST;
 use welkin_runtime::{FbmParams, Method, PerezShape, SkyModel};
 
 use crate::layers::{layers as read_layers, layers_text};

@@ -7,9 +7,10 @@
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
+use welkin_runtime::SkyParams;
+use welkin_runtime::clear_sky::cie;
+use welkin_runtime::params::{CUSTOM, TURBIDITY};
 use welkin_runtime::params::{FORMATION_INTERVAL_S, MAX_OCTAVES};
-use welkin_runtime::perez::{CUSTOM, TURBIDITY};
-use welkin_runtime::{SkyParams, cie};
 
 /// Farther than this from the origin, clouds that are kilometres high say nothing of the place any more.
 const PLACE_RANGE_M: f64 = 1e6;

@@ -1,6 +1,6 @@
 //! What can go wrong when a sky is made ready for a device.
 
-use welkin_pack::Role;
+use welkin_pack::{Pack, Role, Texture};
 
 /// Why a [`crate::Sky`] could not be made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -57,4 +57,9 @@ pub enum SkyError {
         /// The count asked for.
         found: u32,
     },
+}
+
+/// The texture of a role.
+pub(crate) fn texture(pack: &Pack, role: Role) -> Result<&Texture, SkyError> {
+    pack.texture(role).ok_or(SkyError::MissingTexture { role })
 }

@@ -25,53 +25,29 @@
 //! # Ok(()) }
 //! ```
 
-pub mod camera;
-pub mod cie;
+pub mod clear_sky;
 pub mod clouds;
-pub mod dome;
+pub mod device;
 pub mod error;
-pub mod fbm;
-pub mod fbm_map;
-pub mod fbm_pack;
-pub mod flares;
 pub mod frame;
-pub mod galaxy;
-mod histogram;
-mod layouts;
-pub mod light;
-pub mod lightning;
-pub mod lit;
-pub mod lit_map;
-pub mod map;
-pub mod octaves;
-pub mod octaves_map;
+pub mod geometry;
 pub mod oktas;
-pub mod packed;
+pub mod pack_data;
 pub mod params;
-pub mod perez;
-mod pipeline;
+pub mod parts;
 mod program;
-pub mod rain;
-pub mod rays;
-pub mod renderer;
-pub mod shader;
-pub mod shadow;
 pub mod sky;
-pub mod skybox;
 pub mod sprites;
-pub mod stars;
-pub mod sun;
 pub mod tonemap;
-pub mod uniforms;
-mod upload;
+pub mod weather;
 
-pub use camera::Camera;
+pub use clouds::shadow::Shadow;
+pub use device::config::{DepthConfig, SkyConfig};
 pub use error::SkyError;
+pub use geometry::camera::Camera;
 pub use oktas::Oktas;
 pub use params::{
-    FbmParams, Lightning, LitLayer, LitParams, Method, OctaveParams, ParamError, SkyModel,
-    SkyParams, SpriteParams, WeatherParams,
+    FbmParams, Lightning, LitLayer, LitParams, Method, OctaveParams, ParamError, PerezParams,
+    PerezShape, SkyModel, SkyParams, SpriteParams, WeatherParams,
 };
-pub use perez::{PerezParams, PerezShape};
-pub use renderer::{DepthConfig, Sky, SkyConfig};
-pub use shadow::Shadow;
+pub use sky::Sky;

@@ -1,66 +1,11 @@
 //! What one method needs on a device: its pipelines, its off-screen passes, and what is drawn over its sky.
 
-use crate::layouts::Layouts;
-use crate::pipeline::{Overlay, Variant, overlay_pipeline, own_layout, pipelines};
-use crate::shader::{Build, compose};
-use crate::{Method, SkyConfig, SkyModel, fbm_map, lit_map, octaves_map, rays, shadow};
-
-/// What every program is made from.
-#[derive(Debug)]
-pub(crate) struct Common {
-    pub device: wgpu::Device,
-    pub config: SkyConfig,
-    pub build: Build,
-    pub layouts: Layouts,
-    /// The octaves of [`Method::Fbm`] as the pack has them.
-    pub fbm: wgpu::Texture,
-    /// The layers of [`Method::Lit`].
-    pub layers: wgpu::Texture,
-    /// The sheet of [`Method::Sprites`].
-    pub sheet: wgpu::Texture,
-    /// Whether the sky is drawn on the dome's mesh.
-    pub mesh: bool,
-    /// Whether the target can be blended with.
-    pub blends: bool,
-}
-
-impl Common {
-    /// The shader of a dome with a sky model.
-    pub fn module(&self, method: Method, sky: SkyModel) -> wgpu::ShaderModule {
-        let build = Build {
-            method,
-            sky,
-            ..self.build
-        };
-        let source = wgpu::ShaderSource::Wgsl(compose(build).into());
-        let label = Some(method.name());
-        self.device
-            .create_shader_module(wgpu::ShaderModuleDescriptor { label, source })
-    }
-
-    fn pipelines(
-        &self,
-        module: &wgpu::ShaderModule,
-        method: Method,
-        weather: bool,
-    ) -> [wgpu::RenderPipeline; 4] {
-        let own = own_layout(&self.layouts, method);
-        let (device, config, layouts) = (&self.device, &self.config, &self.layouts);
-        let variants = Variant::all(weather);
-        pipelines(device, config, module, layouts, own, self.mesh, variants)
-    }
-
-    /// The pipeline of what is drawn over the sky; `own` is the layout of its group 1.
-    pub fn overlay(
-        &self,
-        module: &wgpu::ShaderModule,
-        own: Option<&wgpu::BindGroupLayout>,
-        overlay: &Overlay,
-    ) -> wgpu::RenderPipeline {
-        let (device, config) = (&self.device, &self.config);
-        overlay_pipeline(device, config, module, &self.layouts, own, overlay)
-    }
-}
+use crate::clouds::{fbm_map, lit_map, octaves_map, shadow};
+use crate::device::common::Common;
+use crate::device::layouts::Layouts;
+use crate::device::pipeline::{Overlay, Variant};
+use crate::params::{Method, SkyModel};
+use crate::weather::rays;
 
 /// A method on a device.
 #[derive(Debug)]
@@ -105,7 +50,8 @@ impl Program {
             }
         };
         let mut models = [const { [const { None }; 2] }; SkyModel::ALL.len()];
-        models[sky as usize][0] = Some(common.pipelines(&module, method, false));
+        models[sky as usize][0] =
+            Some(common.pipelines(&module, own_layout(layouts, method), false));
         Program {
             method,
             pipelines: models,
@@ -131,7 +77,7 @@ impl Program {
         let method = self.method;
         self.pipelines[sky as usize][usize::from(weather)].get_or_insert_with(|| {
             let module = common.module(method, sky);
-            common.pipelines(&module, method, weather)
+            common.pipelines(&module, own_layout(&common.layouts, method), weather)
         });
     }
 
@@ -197,7 +143,7 @@ impl Program {
             OwnMap::Lit(pass) => pass.bytes(),
         };
         let rays = self.rays.as_ref().map_or(0, rays::Pass::bytes);
-        map + rays + self.shadow().map_or(0, crate::map::texture_bytes)
+        map + rays + self.shadow().map_or(0, crate::device::map::texture_bytes)
     }
 }
 
@@ -219,5 +165,14 @@ impl OwnMap {
             OwnMap::Fbm(pass) => Some(pass.map.texture()),
             OwnMap::Lit(pass) => Some(pass.texture()),
         }
+    }
+}
+
+/// What the dome of a method reads in group 1.
+pub(crate) fn own_layout(layouts: &Layouts, method: Method) -> Option<&wgpu::BindGroupLayout> {
+    match method {
+        Method::Packed | Method::Sprites => None,
+        Method::Octaves | Method::Fbm => Some(&layouts.texture),
+        Method::Lit => Some(&layouts.lit),
     }
 }

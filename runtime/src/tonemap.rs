@@ -12,33 +12,32 @@
 //! # Practice
 //! A float target gets raw radiance, and none of this.
 
-use crate::uniforms::TonemapUniforms;
-use crate::{SkyParams, shader::Output};
+use bytemuck::{Pod, Zeroable};
+
+use crate::geometry::part::{Part, Value};
+use crate::params::SkyParams;
+
+/// Its part of the shader.
+pub const PART: Part = Part {
+    constants: &[
+        ("TONE_SHOULDER", Value::F32(SHOULDER)),
+        ("TONE_KNEE", Value::F32(KNEE)),
+    ],
+    wgsl: include_str!("tonemap.wgsl"),
+};
+
+/// The last step.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct TonemapUniforms {
+    /// x: exposure; y: size of the dither, 0 for none.
+    pub display: [f32; 4],
+}
 
 /// `a`: how hard the shoulder is.
 pub const SHOULDER: f32 = 0.5;
 /// `b`: how far 1 stays below white, `(1 + a) / (1 + b + a) = 0.86`.
 pub const KNEE: f32 = 0.244;
-
-/// What a target wants to be given, if it can show a sky at all.
-pub fn output(format: wgpu::TextureFormat) -> Option<Output> {
-    use wgpu::TextureFormat as F;
-    match format {
-        F::Rgba16Float | F::Rgba32Float | F::Rg11b10Ufloat => Some(Output::Radiance),
-        F::Rgba8UnormSrgb | F::Bgra8UnormSrgb => Some(Output::Display),
-        F::Rgba8Unorm | F::Bgra8Unorm | F::Rgb10a2Unorm | F::Rgba16Unorm => Some(Output::Encoded),
-        _ => None,
-    }
-}
-
-/// One step of the target's encoding.
-pub fn step(format: wgpu::TextureFormat) -> f32 {
-    match format {
-        wgpu::TextureFormat::Rgb10a2Unorm => 1.0 / 1023.0,
-        wgpu::TextureFormat::Rgba16Unorm => 1.0 / 65535.0,
-        _ => 1.0 / 255.0,
-    }
-}
 
 /// The last step's share of the uniforms. `step` is that of the target's encoding.
 pub fn uniforms(params: &SkyParams, step: f32) -> TonemapUniforms {

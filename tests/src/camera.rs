@@ -1,7 +1,7 @@
 //! Twin of camera.wgsl.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::uniforms::CameraUniforms;
+use welkin_runtime::geometry::camera::CameraUniforms;
 
 use crate::xyz;
 
@@ -24,11 +24,12 @@ pub fn pixel_of(camera: &CameraUniforms, direction: Vec3) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use welkin_runtime::{Camera, SkyParams, frame::Facts};
+    use welkin_runtime::pack_data::PackData;
+    use welkin_runtime::{Camera, SkyParams};
 
     #[test]
     fn a_pixel_and_its_ray_are_inverse() {
-        let facts = Facts::new(crate::pack::default_pack()).unwrap();
+        let facts = PackData::new(crate::pack::default_pack()).unwrap();
         let camera = Camera::looking(2.0, 0.5, 1.2, [320, 200]);
         let uniforms = facts
             .uniforms(&SkyParams::default(), &camera, 0.0, 0.0)

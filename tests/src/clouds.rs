@@ -3,8 +3,9 @@
 use glam::Vec3;
 use welkin_pack::mapping;
 use welkin_runtime::Method;
-use welkin_runtime::clouds::CORE;
-use welkin_runtime::uniforms::{CloudUniforms, Uniforms};
+use welkin_runtime::clouds::shared::CORE;
+use welkin_runtime::clouds::shared::CloudUniforms;
+use welkin_runtime::frame::Uniforms;
 
 use crate::dome::DomeHit;
 use crate::texture::{Texture, smoothstep};
@@ -98,7 +99,10 @@ mod tests {
 
     #[test]
     fn opacity_starts_without_a_kink_and_keeps_its_ends() {
-        for edge in [welkin_runtime::packed::EDGE, welkin_runtime::octaves::EDGE] {
+        for edge in [
+            welkin_runtime::clouds::packed::EDGE,
+            welkin_runtime::clouds::octaves::EDGE,
+        ] {
             assert_eq!(soften(0.0, edge), 0.0);
             assert!((soften(1.0, edge) - 1.0).abs() < 1e-6);
             assert!(soften(1e-3, edge) / 1e-3 < 0.01, "slope 0 at the foot");

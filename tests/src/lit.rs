@@ -1,12 +1,12 @@
 //! Twin of lit.wgsl: the paper's equations, one function each.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::lit::{
+use welkin_runtime::clouds::lit::{
     AMBIENT, BLUR, BLUR_LEVEL, FINER, FINER_RELIEF, FINER_START, LEAST_STRETCH, LONGEST_WAY,
     SHADED_BY_LAYER,
 };
+use welkin_runtime::clouds::lit::{LitLayerUniforms, LitUniforms};
 use welkin_runtime::params::LAYERS_AN_ITERATION;
-use welkin_runtime::uniforms::{LitLayerUniforms, LitUniforms};
 
 use crate::clouds::{self, Inputs};
 use crate::xyz;
@@ -179,7 +179,7 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
 mod tests {
     use std::f32::consts::TAU;
 
-    use welkin_runtime::frame::Facts;
+    use welkin_runtime::pack_data::PackData;
     use welkin_runtime::{Camera, Method, SkyParams};
 
     use super::*;
@@ -188,7 +188,7 @@ mod tests {
     /// A shut sky's horizon is the twin's cloud where every channel has its mean, averaged around the horizon.
     #[test]
     fn a_shut_sky_far_away_is_the_mean_cloud() {
-        let facts = Facts::new(pack::default_pack()).expect("the pack has every role");
+        let facts = PackData::new(pack::default_pack()).expect("the pack has every role");
         let camera = Camera::looking(0.0, 0.3, 1.0, [64, 64]);
         for (time, density) in [(0.5, 0.0), (0.3, 0.6), (0.0, 1.0)] {
             let params = SkyParams {

@@ -1,9 +1,9 @@
 //! Twin of lit_map.wgsl: each layer of the map, and what texture units may make of it.
 
 use welkin_pack::{Image, LayerKind, Pack, Role};
-use welkin_runtime::lit_map::{LEAST_UP, WEIGHTS};
+use welkin_runtime::clouds::lit::{LitLayerUniforms, LitUniforms};
+use welkin_runtime::clouds::lit_map::{LEAST_UP, WEIGHTS};
 use welkin_runtime::params::MAX_LAYERS;
-use welkin_runtime::uniforms::{LitLayerUniforms, LitUniforms};
 
 use crate::texture::{Texture, mix, smoothstep};
 

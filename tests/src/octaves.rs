@@ -1,8 +1,10 @@
 //! Twin of octaves.wgsl.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::octaves::{EDGE, FINER, FINER_START, HIGH_OPACITY, MIDDLE_OPACITY, ROUGH_GREY};
-use welkin_runtime::uniforms::OctaveDome;
+use welkin_runtime::clouds::octaves::OctaveDome;
+use welkin_runtime::clouds::octaves::{
+    EDGE, FINER, FINER_START, HIGH_OPACITY, MIDDLE_OPACITY, ROUGH_GREY,
+};
 
 use crate::clouds::{self, Inputs, light, soften, tinted};
 use crate::dome;

@@ -4,9 +4,10 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 
 use glam::Vec3;
 use welkin_pack::Pack;
-use welkin_runtime::frame::Facts;
-use welkin_runtime::perez::{DAYLIGHT, LEAST_COSINE, RGB_OF_XYZ, TO_DAYLIGHT, acos};
-use welkin_runtime::uniforms::{PerezUniforms, Uniforms};
+use welkin_runtime::clear_sky::perez::PerezUniforms;
+use welkin_runtime::clear_sky::perez::{DAYLIGHT, LEAST_COSINE, RGB_OF_XYZ, TO_DAYLIGHT, acos};
+use welkin_runtime::frame::Uniforms;
+use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, PerezParams, PerezShape, SkyModel, SkyParams};
 
 use crate::{pack, xyz};
@@ -52,7 +53,7 @@ pub fn overhead() -> Pack {
 
 /// The frame's constants of a cloudless Perez sky. With the sun that rises to the zenith, it stands `360 (0.5 - time)`
 /// degrees from it.
-pub fn uniforms(facts: &Facts, shape: PerezShape, turbidity: f32, time: f32) -> Uniforms {
+pub fn uniforms(facts: &PackData, shape: PerezShape, turbidity: f32, time: f32) -> Uniforms {
     let params = SkyParams {
         sky: SkyModel::Perez,
         perez: PerezParams { shape, turbidity },

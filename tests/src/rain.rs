@@ -3,8 +3,11 @@
 use std::f32::consts::TAU;
 
 use glam::{Mat3, Vec2, Vec3};
-use welkin_runtime::rain::{COLUMNS, DROPS_A_COLUMN, FADE, HAZE_ABOVE, HAZE_FALL, HEIGHT_M, SLOTS};
-use welkin_runtime::uniforms::{CameraUniforms, RainUniforms};
+use welkin_runtime::geometry::camera::CameraUniforms;
+use welkin_runtime::weather::rain::RainUniforms;
+use welkin_runtime::weather::rain::{
+    COLUMNS, DROPS_A_COLUMN, FADE, HAZE_ABOVE, HAZE_FALL, HEIGHT_M, SLOTS,
+};
 
 use crate::{camera, xyz};
 

@@ -6,10 +6,10 @@ use glam::{Vec2, Vec3};
 use welkin_pack::Image;
 use welkin_pack::role::Wrap;
 use welkin_runtime::Method;
-use welkin_runtime::rays::{
+use welkin_runtime::weather::rays::RayUniforms;
+use welkin_runtime::weather::rays::{
     AROUND, CORE, DECAY, GAIN, GROUND, HORIZON, REACH, SIZE, SOURCE, TAPS, TEXEL_RAD, WINDOW,
 };
-use welkin_runtime::uniforms::RayUniforms;
 
 use crate::clouds::{self, Inputs};
 use crate::texture::{Texture, smoothstep};

@@ -2,9 +2,9 @@
 
 use glam::{Vec2, Vec3};
 use welkin_pack::{Image, Pack, Role};
-use welkin_runtime::frame::Facts;
-use welkin_runtime::galaxy::EXTINCTION;
-use welkin_runtime::uniforms::Uniforms;
+use welkin_runtime::clear_sky::galaxy::EXTINCTION;
+use welkin_runtime::frame::Uniforms;
+use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, Method, SkyParams};
 
 use crate::clouds::Inputs;
@@ -22,7 +22,7 @@ pub const FILTER_STEP: f32 = 1.0 / 255.0;
 /// A pack made ready for the twin.
 pub struct Twin<'a> {
     pack: &'a Pack,
-    facts: Facts,
+    facts: PackData,
     clouds: Texture,
     galaxy: Texture,
     sky: Texture,
@@ -57,7 +57,7 @@ impl<'a> Twin<'a> {
         let texture = |role| Texture::new(pack, role);
         Twin {
             pack,
-            facts: Facts::new(pack).expect("the pack has every role"),
+            facts: PackData::new(pack).expect("the pack has every role"),
             clouds: texture(Role::Clouds),
             galaxy: texture(Role::Galaxy),
             sky: texture(Role::Sky),

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 use welkin_runtime::sprites::ring::HALF_SIDE;
-use welkin_runtime::uniforms::{RingSet, RingUniforms};
+use welkin_runtime::sprites::ring::{RingSet, RingUniforms};
 
 use crate::xyz;
 

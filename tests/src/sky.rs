@@ -1,8 +1,8 @@
 //! Twin of sky.wgsl.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::sky::{GROUND_FALL, GROUND_FLOOR};
-use welkin_runtime::uniforms::Uniforms;
+use welkin_runtime::clear_sky::gradient::{GROUND_FALL, GROUND_FLOOR};
+use welkin_runtime::frame::Uniforms;
 
 use crate::texture::Texture;
 use crate::{perez, xyz};

@@ -1,11 +1,13 @@
 //! Twin of sprites.wgsl.
 
 use glam::{Vec2, Vec3, Vec4};
+use welkin_runtime::frame::Uniforms;
 use welkin_runtime::sprites::instances::Instance;
 use welkin_runtime::sprites::locks::{LOCK, NEAR};
 use welkin_runtime::sprites::outline::Outline;
+use welkin_runtime::sprites::pipelines::SpriteBlock;
+use welkin_runtime::sprites::ring::SpriteView;
 use welkin_runtime::sprites::{RIM_OPAQUE, formation};
-use welkin_runtime::uniforms::{SpriteBlock, SpriteView, Uniforms};
 
 use crate::texture::{Texture, smoothstep};
 use crate::{clouds, sky, xyz};

@@ -1,8 +1,9 @@
 //! Cover is the share of the sky that clouds take, and no grid shows in them.
 
 use welkin_pack::{Pack, Role};
-use welkin_runtime::frame::Facts;
-use welkin_runtime::{Camera, Method, Sky, SkyParams, fbm_map};
+use welkin_runtime::clouds::fbm_map;
+use welkin_runtime::pack_data::PackData;
+use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::{gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -53,7 +54,7 @@ fn octaves_cover_what_cover_says() {
 
 /// How far a sum of octaves is from the normal distribution: skewness and excess of its own octaves, whatever their places.
 fn shape(pack: &Pack) -> [f32; 2] {
-    let octaves = Facts::new(pack).expect("the pack has every role").fbm;
+    let octaves = PackData::new(pack).expect("the pack has every role").fbm;
     let (_, spread) = fbm_map::mean_and_spread(&octaves);
     let texture = pack.texture(Role::Fbm).expect("the pack has octaves");
     let (mut skewness, mut excess) = (0.0, 0.0);

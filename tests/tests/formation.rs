@@ -1,10 +1,10 @@
 //! What changes a map beside its motion, new states of octaves and a sun that moves on, never makes it jump.
 
 use welkin_pack::LayerKind;
-use welkin_runtime::fbm_pack::SHADE_BYTES;
-use welkin_runtime::frame::Facts;
-use welkin_runtime::lit_map::WEIGHTS;
-use welkin_runtime::octaves_map::NOISE_SIDE;
+use welkin_runtime::clouds::fbm_pack::SHADE_BYTES;
+use welkin_runtime::clouds::lit_map::WEIGHTS;
+use welkin_runtime::clouds::octaves_map::NOISE_SIDE;
+use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, LitLayer, LitParams, Method, Sky, SkyParams};
 use welkin_tests::lit_map::even;
 use welkin_tests::octaves_map::{most_change, most_change_of_amount};
@@ -19,8 +19,8 @@ fn view() -> Camera {
     Camera::looking(0.0, 0.5, 1.0, [16, 16])
 }
 
-fn facts() -> Facts {
-    Facts::new(pack::default_pack()).expect("the pack has every role")
+fn facts() -> PackData {
+    PackData::new(pack::default_pack()).expect("the pack has every role")
 }
 
 fn octaves() -> SkyParams {
@@ -273,7 +273,7 @@ fn the_formation_interval_says_how_fast() {
 }
 
 /// Times of day, next to each other as 32-bit numbers can be, between which octaves are packed anew.
-fn repacks(facts: &Facts, from: f32, to: f32) -> Vec<[f32; 2]> {
+fn repacks(facts: &PackData, from: f32, to: f32) -> Vec<[f32; 2]> {
     let step = |time: f32| {
         let params = SkyParams {
             time,

@@ -3,7 +3,7 @@
 use std::f32::consts::TAU;
 
 use glam::Vec3;
-use welkin_runtime::sky::GROUND_FALL;
+use welkin_runtime::clear_sky::gradient::GROUND_FALL;
 use welkin_runtime::{Camera, Method, Sky, SkyModel, SkyParams};
 use welkin_tests::{gpu, pack};
 

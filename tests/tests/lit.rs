@@ -7,8 +7,8 @@ use std::sync::OnceLock;
 
 use glam::{Vec2, Vec3};
 use welkin_pack::{Image, LayerKind, Pack, mapping};
-use welkin_runtime::frame::Facts;
-use welkin_runtime::uniforms::LitUniforms;
+use welkin_runtime::clouds::lit::LitUniforms;
+use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, LitLayer, LitParams, Method, Sky, SkyParams};
 use welkin_tests::film::Film;
 use welkin_tests::{camera, gpu, lit, pack};
@@ -57,7 +57,7 @@ fn overhead(fov_rad: f32) -> Camera {
 }
 
 fn uniforms(pack: &Pack, params: &SkyParams) -> LitUniforms {
-    let facts = Facts::new(pack).expect("the pack has every role");
+    let facts = PackData::new(pack).expect("the pack has every role");
     facts.uniforms(params, &overhead(1.0), 0.0, 0.0).lit
 }
 
@@ -67,7 +67,7 @@ fn sun(pack: &Pack, time: f32) -> Vec3 {
 
 /// The directions of a camera's pixels.
 fn directions(pack: &Pack, view: &Camera) -> Vec<Vec3> {
-    let facts = Facts::new(pack).expect("the pack has every role");
+    let facts = PackData::new(pack).expect("the pack has every role");
     let uniforms = facts.uniforms(&SkyParams::default(), view, 0.0, 0.0).camera;
     let [width, height] = view.viewport_px;
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| Vec2::new(x as f32, y as f32)));
@@ -339,7 +339,7 @@ fn shade_is_blurred_radially_from_where_the_sun_is_seen() {
         };
         let lit = uniforms(pack, &params);
         let towards = sun(pack, time);
-        let seen = welkin_runtime::lit::intersect(params.lit.flattening, towards).position;
+        let seen = welkin_runtime::clouds::lit::intersect(params.lit.flattening, towards).position;
         let source = Vec2::new(seen.x, seen.z);
         for turn in 0..16 {
             let away = Vec2::from_angle(turn as f32 / 16.0 * std::f32::consts::TAU);
@@ -401,7 +401,7 @@ fn a_cloud_is_shaded_by_what_is_between_it_and_the_sun() {
         let (mut shaded, mut free) = (Vec::new(), Vec::new());
         for (direction, light) in directions(&stripe, &view).iter().zip(&light) {
             let distance =
-                welkin_runtime::lit::intersect(params.lit.flattening, *direction).distance;
+                welkin_runtime::clouds::lit::intersect(params.lit.flattening, *direction).distance;
             let plane = Vec2::new(direction.x, direction.z) * distance;
             let [here, near, far] = lit::places(&lit, 0, plane);
             let (way, thin) = (near - here, own(here));

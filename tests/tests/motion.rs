@@ -1,8 +1,8 @@
 //! Clouds change their shapes, and never jump.
 
 use glam::Vec3Swizzles;
-use welkin_runtime::frame::Facts;
-use welkin_runtime::uniforms::Uniforms;
+use welkin_runtime::frame::Uniforms;
+use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::film::Film;
 use welkin_tests::renderer::{Frame, Twin};
@@ -128,7 +128,7 @@ fn offsets(method: Method, uniforms: &Uniforms) -> Vec<f32> {
 }
 
 /// The first moments at which an offset is taken back by a tile.
-fn wraps(facts: &Facts, params: &SkyParams) -> Vec<f64> {
+fn wraps(facts: &PackData, params: &SkyParams) -> Vec<f64> {
     let at = |seconds: f64| {
         let uniforms = facts.uniforms(params, &view(), seconds, 0.0);
         offsets(params.method, &uniforms)
@@ -236,7 +236,7 @@ fn steepest(alpha: &[f32]) -> f32 {
 
 /// What reads may change by from one frame to the next beside their motion: two steps of 8-bit filtering, which may be
 /// off one way in one frame and the other way in the next, and what octaves and layers form anew.
-fn change_of_reads(facts: &Facts, params: &SkyParams, frame: &Frame, seconds: f64) -> Vec<f32> {
+fn change_of_reads(facts: &PackData, params: &SkyParams, frame: &Frame, seconds: f64) -> Vec<f32> {
     let formed = match params.method {
         Method::Packed | Method::Fbm | Method::Sprites => Vec::new(),
         Method::Octaves => {
@@ -254,7 +254,7 @@ fn change_of_reads(facts: &Facts, params: &SkyParams, frame: &Frame, seconds: f6
 }
 
 /// By how much the channels of each layer of the map may change: the second read goes on.
-fn lit_formed(facts: &Facts, params: &SkyParams, frame: &Frame, seconds: f64) -> Vec<[f32; 4]> {
+fn lit_formed(facts: &PackData, params: &SkyParams, frame: &Frame, seconds: f64) -> Vec<[f32; 4]> {
     let after = facts.uniforms(params, &view(), seconds + FRAME_S, 0.0).lit;
     lit_map::most_change(
         &frame.uniforms.lit,
@@ -271,7 +271,7 @@ fn lit_formed(facts: &Facts, params: &SkyParams, frame: &Frame, seconds: f64) ->
 /// offsets are taken back by a tile.
 #[test]
 fn nothing_jumps_from_frame_to_frame() {
-    let facts = Facts::new(pack::default_pack()).expect("the pack has every role");
+    let facts = PackData::new(pack::default_pack()).expect("the pack has every role");
     let (mut film, twin) = (Film::new(), Twin::new(pack::default_pack()));
     for method in Method::DOMES {
         for speed in [0.1, 1.0] {

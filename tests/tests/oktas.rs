@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 
 use glam::Vec2;
 use welkin_pack::{LayerKind, Pack};
-use welkin_runtime::oktas::{LEAST_SINE, OPAQUE};
+use welkin_runtime::clouds::shared::OPAQUE;
+use welkin_runtime::oktas::LEAST_SINE;
 use welkin_runtime::{Camera, LitLayer, LitParams, Method, Oktas, Sky, SkyParams};
 use welkin_tests::{gpu, pack};
 

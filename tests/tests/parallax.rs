@@ -2,9 +2,9 @@
 
 use glam::Vec2;
 use welkin_pack::LayerKind;
-use welkin_runtime::clouds::LOW_HEIGHT_M;
-use welkin_runtime::frame::Facts;
-use welkin_runtime::octaves::HEIGHTS_M;
+use welkin_runtime::clouds::octaves::HEIGHTS_M;
+use welkin_runtime::clouds::shared::LOW_HEIGHT_M;
+use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, LitParams, Method, OctaveParams, SkyParams};
 use welkin_tests::{gpu, pack};
 
@@ -271,7 +271,7 @@ fn a_place_that_is_no_number_is_the_origin() {
 
 /// The offset of a method's lowest clouds, in tiles 0..1, for a viewer so far to the east.
 fn offset(params: &SkyParams, east_m: f64) -> f32 {
-    let facts = Facts::new(pack::default_pack()).expect("the pack has every role");
+    let facts = PackData::new(pack::default_pack()).expect("the pack has every role");
     let mut view = view();
     view.position_m.x = east_m as f32;
     let uniforms = facts.uniforms(params, &view, 40.0, 0.0);

@@ -3,10 +3,13 @@
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::Vec3;
-use welkin_runtime::frame::Facts;
-use welkin_runtime::light::{Light, luminance};
-use welkin_runtime::perez::{self, CUSTOM, Distribution, LEAST_COSINE, TURBIDITY};
-use welkin_runtime::{PerezParams, PerezShape, cie};
+use welkin_runtime::clear_sky::cie;
+use welkin_runtime::clear_sky::light::{Light, luminance};
+use welkin_runtime::clear_sky::perez;
+use welkin_runtime::clear_sky::perez::{Distribution, LEAST_COSINE};
+use welkin_runtime::pack_data::PackData;
+use welkin_runtime::params::{CUSTOM, TURBIDITY};
+use welkin_runtime::{PerezParams, PerezShape};
 use welkin_tests::perez::{colour, direction, hemisphere, linear, overhead, time_of, uniforms};
 use welkin_tests::{pack, xyz};
 
@@ -29,7 +32,7 @@ fn published([a, b, c, d, e]: [f64; 5], zenith_rad: f64, gamma_rad: f64, is_cie:
 
 #[test]
 fn the_zenith_has_the_zeniths_values() {
-    let facts = Facts::new(&overhead()).unwrap();
+    let facts = PackData::new(&overhead()).unwrap();
     for elevation_deg in [0.0, 1.0, 20.0, 60.0, 90.0_f32] {
         for turbidity in [TURBIDITY[0], 2.5, 6.0, TURBIDITY[1]] {
             let time = time_of(elevation_deg);
@@ -60,7 +63,7 @@ fn zenith_chromaticity_is_that_of_the_printed_matrices() {
 
 #[test]
 fn luminance_is_the_printed_equation() {
-    let facts = Facts::new(&overhead()).unwrap();
+    let facts = PackData::new(&overhead()).unwrap();
     for (index, standard) in cie::SKIES.iter().enumerate() {
         for elevation_deg in [0.0_f32, 15.0, 50.0, 90.0] {
             let shape = PerezShape::Cie(index as u8 + 1);
@@ -89,7 +92,7 @@ fn luminance_is_the_printed_equation() {
 
 #[test]
 fn the_skies_on_both_sides_of_the_suns_meridian_are_mirror_images() {
-    let facts = Facts::new(pack::default_pack()).unwrap();
+    let facts = PackData::new(pack::default_pack()).unwrap();
     for shape in shapes() {
         for time in [0.3, 0.45, 0.6, 0.74] {
             let perez = uniforms(&facts, shape, 3.0, time).perez;
@@ -110,7 +113,7 @@ fn the_skies_on_both_sides_of_the_suns_meridian_are_mirror_images() {
 /// to 35 degrees high is brighter than its aureole by the standard's own numbers.
 #[test]
 fn clear_skies_are_brightest_near_the_sun() {
-    let facts = Facts::new(&overhead()).unwrap();
+    let facts = PackData::new(&overhead()).unwrap();
     for number in 11..=15 {
         for elevation_deg in [1.0, 5.0, 15.0, 25.0, 45.0, 70.0, 90.0] {
             if number > 13 && (10.0..40.0).contains(&elevation_deg) {
@@ -135,7 +138,7 @@ fn clear_skies_are_brightest_near_the_sun() {
 /// Whatever the gradation does, of all elements of one elevation the one under or over the sun is the brightest.
 #[test]
 fn every_sky_with_an_aureole_is_brightest_on_the_suns_side() {
-    let facts = Facts::new(pack::default_pack()).unwrap();
+    let facts = PackData::new(pack::default_pack()).unwrap();
     for shape in shapes() {
         if matches!(shape, PerezShape::Cie(1 | 3 | 5)) {
             continue;
@@ -156,7 +159,7 @@ fn every_sky_with_an_aureole_is_brightest_on_the_suns_side() {
 
 #[test]
 fn overcast_skies_of_the_first_kind_are_the_same_all_round() {
-    let facts = Facts::new(pack::default_pack()).unwrap();
+    let facts = PackData::new(pack::default_pack()).unwrap();
     for number in [1, 3, 5] {
         for time in [0.3, 0.5, 0.7] {
             let perez = uniforms(&facts, PerezShape::Cie(number), 2.5, time).perez;
@@ -181,7 +184,7 @@ fn overcast_skies_of_the_first_kind_are_the_same_all_round() {
 /// the horizon. Type 1 has 1 + 4 exp(-0.7) = 2.986.
 #[test]
 fn the_overcast_zenith_is_three_times_as_bright_as_the_horizon() {
-    let facts = Facts::new(pack::default_pack()).unwrap();
+    let facts = PackData::new(pack::default_pack()).unwrap();
     let perez = uniforms(&facts, PerezShape::Cie(1), 2.5, 0.4).perez;
     let ratio = colour(&perez, Vec3::Y).x / colour(&perez, Vec3::X).x;
     assert!((ratio - 2.986_34).abs() < 1e-4, "{ratio}");
@@ -193,7 +196,7 @@ fn the_overcast_zenith_is_three_times_as_bright_as_the_horizon() {
 #[test]
 fn the_hemisphere_is_as_bright_as_the_gradient() {
     let pack = overhead();
-    let facts = Facts::new(&pack).unwrap();
+    let facts = PackData::new(&pack).unwrap();
     for shape in shapes() {
         for elevation_deg in [0.0, 10.0, 45.0, 90.0] {
             let time = time_of(elevation_deg);
@@ -298,7 +301,7 @@ fn is_a_colour([x, y]: [f32; 2]) -> bool {
 #[test]
 fn every_colour_is_a_colour_and_can_be_shown() {
     assert!(is_a_colour(perez::WHITE) && !is_a_colour([0.7, 0.5]) && !is_a_colour([0.0, 0.3]));
-    let facts = Facts::new(&overhead()).unwrap();
+    let facts = PackData::new(&overhead()).unwrap();
     for step in 0..=10 {
         let turbidity = TURBIDITY[0] + (TURBIDITY[1] - TURBIDITY[0]) * step as f32 / 10.0;
         for elevation_deg in (0..=90).step_by(3) {

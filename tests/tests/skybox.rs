@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 use welkin_pack::Pack;
-use welkin_runtime::frame::Facts;
+use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::skybox::{self, Skybox};
 use welkin_tests::{camera, compare, gpu, pack};
@@ -48,7 +48,7 @@ fn colour([east, up, south]: [f32; 3]) -> [f32; 3] {
 
 /// The directions of a camera's pixels.
 fn directions(pack: &Pack, view: &Camera) -> Vec<Vec3> {
-    let facts = Facts::new(pack).expect("the pack has every role");
+    let facts = PackData::new(pack).expect("the pack has every role");
     let uniforms = facts.uniforms(&clear(), view, 0.0, 0.0);
     let [width, height] = view.viewport_px;
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| Vec2::new(x as f32, y as f32)));
@@ -122,7 +122,7 @@ fn noise(direction: [f32; 3]) -> [f32; 4] {
 fn gpu_and_cpu_agree_on_noise_at_every_level() {
     let pack = pack::with_skybox(FACE, noise);
     let skybox = Skybox::new(&pack).expect("the pack has a skybox");
-    let facts = Facts::new(&pack).expect("the pack has every role");
+    let facts = PackData::new(&pack).expect("the pack has every role");
     let [mut sky, mut computed] = [&pack, pack::default_pack()].map(sky);
     for side in [96, 30, 9] {
         for (name, view) in views([side, side]) {

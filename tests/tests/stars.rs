@@ -3,10 +3,10 @@
 use glam::{Vec2, Vec3};
 use welkin_pack::mapping::{self, StarPlace};
 use welkin_pack::{Pack, Role, StarTexel};
-use welkin_runtime::frame::Facts;
-use welkin_runtime::galaxy::EXTINCTION;
-use welkin_runtime::stars::{COLD, GALAXY_BOOST, WARM};
-use welkin_runtime::uniforms::Uniforms;
+use welkin_runtime::clear_sky::galaxy::EXTINCTION;
+use welkin_runtime::clear_sky::stars::{COLD, GALAXY_BOOST, WARM};
+use welkin_runtime::frame::Uniforms;
+use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, SkyParams};
 use welkin_tests::texture::smoothstep;
 use welkin_tests::{camera, gpu, pack, stars};
@@ -84,7 +84,7 @@ fn total(texels: &[[f32; 4]], size: [u32; 2]) -> f64 {
 #[test]
 fn total_light_is_that_of_the_records_during_a_slow_pan() {
     let pack = pack::stars_alone();
-    let facts = Facts::new(&pack).expect("the pack has every role");
+    let facts = PackData::new(&pack).expect("the pack has every role");
     let mut sky = gpu::sky(&pack, FORMAT);
     // Fine enough to read one texel (3.1 pixels a texel), and so coarse that stars are added up on level 2.
     for (size, fov) in [([640, 480], 0.6), ([320, 240], 1.0), ([128, 96], 1.5)] {
@@ -151,7 +151,7 @@ fn density_over_elevation_is_even() {
             .for_each(|t| t.copy_from_slice(&[1.0, 0.0, 0.0, 0.0])),
         _ => {}
     });
-    let facts = Facts::new(&pack).expect("the pack has every role");
+    let facts = PackData::new(&pack).expect("the pack has every role");
     let mut sky = gpu::sky(&pack, FORMAT);
     let size = [1024, 1024];
     // Ten bands of equal solid angle from sin 0.05 up; below, the air leaves too little light to count.
@@ -227,7 +227,7 @@ fn flux(texels: &[[f32; 4]], uniforms: &Uniforms, size: [u32; 2]) -> f64 {
 #[test]
 fn even_stars_give_the_same_light_wherever_they_are_on_a_wide_picture() {
     let pack = pack::stars_alone();
-    let facts = Facts::new(&pack).expect("the pack has every role");
+    let facts = PackData::new(&pack).expect("the pack has every role");
     let mut sky = gpu::sky(&pack, FORMAT);
     let size = [512, 512];
     let quarter = std::f32::consts::FRAC_PI_2;
@@ -267,7 +267,7 @@ fn even_stars_give_the_same_light_wherever_they_are_on_a_wide_picture() {
 #[test]
 fn a_star_flickers_as_its_record_says_at_any_time() {
     let pack = pack::stars_alone();
-    let facts = Facts::new(&pack).expect("the pack has every role");
+    let facts = PackData::new(&pack).expect("the pack has every role");
     let mut sky = gpu::sky(&pack, FORMAT);
     let size = [65, 65];
     let high_up =
@@ -303,7 +303,7 @@ fn a_star_flickers_as_its_record_says_at_any_time() {
 /// at all of these times.
 fn lone_stars(pack: &Pack, size: [u32; 2], fov_deg: f32) -> [usize; 2] {
     const REACH: i64 = 2;
-    let facts = Facts::new(pack).expect("the pack has every role");
+    let facts = PackData::new(pack).expect("the pack has every role");
     let mut sky = gpu::sky(pack, FORMAT);
     let view = Camera::looking(0.8, 0.7, fov_deg.to_radians(), size);
     let uniforms = facts.uniforms(&night(), &view, 0.0, 0.0);

@@ -2,10 +2,12 @@
 
 use glam::Vec3;
 use welkin_pack::Role;
-use welkin_runtime::frame::Facts;
-use welkin_runtime::light::{Light, luminance};
-use welkin_runtime::perez::{self, TWILIGHT_END};
-use welkin_runtime::uniforms::{PerezUniforms, Uniforms};
+use welkin_runtime::clear_sky::light::{Light, luminance};
+use welkin_runtime::clear_sky::perez;
+use welkin_runtime::clear_sky::perez::PerezUniforms;
+use welkin_runtime::clear_sky::perez::TWILIGHT_END;
+use welkin_runtime::frame::Uniforms;
+use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, PerezShape, SkyModel, SkyParams};
 use welkin_tests::perez::{colour, hemisphere, linear, overhead, time_of, uniforms};
 use welkin_tests::texture::Texture;
@@ -23,7 +25,7 @@ struct Moment {
 }
 
 fn moment(
-    facts: &Facts,
+    facts: &PackData,
     texture: &Texture,
     shape: PerezShape,
     elevation_deg: f32,
@@ -55,7 +57,7 @@ fn moment(
 #[test]
 fn no_step_is_seen_while_the_sun_goes_from_the_zenith_to_the_nadir() {
     let pack = overhead();
-    let facts = Facts::new(&pack).unwrap();
+    let facts = PackData::new(&pack).unwrap();
     let texture = Texture::new(&pack, Role::Sky);
     let directions: Vec<Vec3> = hemisphere(5, 8)
         .chain([Vec3::Y, Vec3::X, -Vec3::X])
@@ -103,7 +105,7 @@ fn by_night_and_with_the_other_model_nothing_is_left_of_it() {
         [0.0, 0.0]
     );
     assert!((TWILIGHT_END - 6.0_f32.to_radians().sin()).abs() < 1e-7);
-    let facts = Facts::new(pack::default_pack()).unwrap();
+    let facts = PackData::new(pack::default_pack()).unwrap();
     let of = |sky: SkyModel, time: f32| {
         let params = SkyParams {
             sky,

@@ -2,7 +2,7 @@
 
 use welkin_pack::LayerKind;
 
-use super::Ranged;
+use super::range::Ranged;
 
 /// The most layers: two iterations of three.
 pub const MAX_LAYERS: usize = 6;
@@ -13,7 +13,7 @@ const _: () = assert!(MAX_LAYERS == 6);
 /// The layers that one iteration draws.
 pub const LAYERS_AN_ITERATION: usize = 3;
 
-/// What [`crate::Method::Lit`] alone knows. See [`crate::lit`].
+/// What [`crate::Method::Lit`] alone knows. See [`crate::clouds::lit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LitParams {
     /// Radius of the dome's rim in metres, 1000..=1000000: the paper's user-defined size.

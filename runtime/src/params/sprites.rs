@@ -1,6 +1,7 @@
 //! What [`crate::Method::Sprites`] alone knows.
 
-use super::{Method, Ranged};
+use super::method::Method;
+use super::range::Ranged;
 
 /// What [`crate::Method::Sprites`] alone knows. See [`crate::sprites`].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Weather that any method can have: rays, rain, lightning.
 
-use super::{ParamError, Ranged};
+use super::range::{ParamError, Ranged};
 
 /// Weather over the clouds of any method; all of it off by default.
 ///
@@ -8,11 +8,11 @@ use super::{ParamError, Ranged};
 /// draws weather is made when a frame first has it, or a flash is told; an application that must not wait then prepares a frame with them while it loads.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WeatherParams {
-    /// Strength of crepuscular rays, 0 (off) to 1. See [`crate::rays`].
+    /// Strength of crepuscular rays, 0 (off) to 1. See [`crate::weather::rays`].
     pub rays: f32,
-    /// Strength of rain, 0 (off) to 1. See [`crate::rain`].
+    /// Strength of rain, 0 (off) to 1. See [`crate::weather::rain`].
     pub rain: f32,
-    /// A flash inside the clouds. See [`crate::lightning`].
+    /// A flash inside the clouds. See [`crate::weather::lightning`].
     pub lightning: Lightning,
 }
 

@@ -4,12 +4,10 @@ use wgpu::util::DeviceExt;
 
 use super::instances::{A_ROW, Instance};
 use super::outline;
-use super::pipelines::{GroupLayouts, one_of};
+use super::pipelines::{GroupLayouts, STRIDE, one_of};
 use super::scene::{AMOUNTS_SIDE, Draw, Scene};
-use crate::uniforms::{SpriteBlock, SpriteView};
-
-/// Bytes from one view or block to the next: what every device takes as an offset.
-pub const STRIDE: u64 = 256;
+use crate::sprites::pipelines::SpriteBlock;
+use crate::sprites::ring::SpriteView;
 
 /// The uniforms of blocks, one after another.
 #[derive(Debug)]

@@ -16,7 +16,7 @@
 //! - The listing adds up time steps. Here a cloud's amount is a function of cover, its rank and the moment, so any
 //!   moment can be drawn at once: clouds near the threshold of cover come and go in some minutes, each in its own time.
 
-use crate::SkyParams;
+use crate::params::SkyParams;
 
 /// Cover over which a cloud forms.
 const WIDTH: f32 = 0.08;

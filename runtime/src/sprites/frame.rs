@@ -2,10 +2,13 @@
 
 use glam::{DVec3, Vec3};
 
-use super::in_field;
 use super::ring::Station;
-use crate::uniforms::{SpriteView, Uniforms};
-use crate::{Camera, DepthConfig, SkyParams};
+use super::wind::in_field;
+use crate::device::config::DepthConfig;
+use crate::geometry::camera::{self, Camera};
+use crate::params::SkyParams;
+use crate::sprites::SpriteUniforms;
+use crate::sprites::ring::SpriteView;
 
 /// What a frame is drawn from.
 #[derive(Clone, Copy, Debug)]
@@ -16,8 +19,8 @@ pub(crate) struct Frame<'a> {
     pub camera: &'a Camera,
     /// Finite.
     pub seconds: f64,
-    /// All but the light of the flare.
-    pub uniforms: &'a Uniforms,
+    /// What the sprites look like.
+    pub look: &'a SpriteUniforms,
 }
 
 impl Frame<'_> {
@@ -35,7 +38,7 @@ pub fn cell_texels(sheet: &wgpu::Texture) -> f32 {
 
 /// What a ring for this frame would be made for.
 pub fn station(frame: &Frame<'_>, viewer_m: DVec3, sight_m: f32, heights_m: [f64; 2]) -> Station {
-    let own = &frame.uniforms.sprites;
+    let own = frame.look;
     let params = frame.params;
     Station {
         place_m: viewer_m,
@@ -62,7 +65,7 @@ pub fn screen_view(
     frame: &Frame<'_>,
     sheet: &wgpu::Texture,
 ) -> SpriteView {
-    let camera = &frame.uniforms.camera;
+    let camera = camera::uniforms(frame.camera);
     let [slope, start] = match (depth, frame.camera.clip_z) {
         // Nothing is tested: half way between near and far is never cut off.
         (None, _) => [0.5, 0.0],

@@ -13,7 +13,7 @@ use glam::Vec3;
 use welkin_pack::field::{COLOUR_LEVELS, Cloud, CloudKind, ColourLevel, SECTION_SIDE_M, Sprite};
 use welkin_pack::{Field, SheetCell};
 
-/// A sprite on the device: see `SpriteInstance` of shaders/sprites.wgsl for what each member holds.
+/// A sprite on the device: see `SpriteInstance` of sprites.wgsl for what each member holds.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct Instance {

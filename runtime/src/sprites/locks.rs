@@ -7,7 +7,7 @@
 //!
 //! # Changes versus the paper
 //! A lock does not end at half of the radius, where the sprite would jump round, but fades out up to the whole radius
-//! (shaders/sprites.wgsl). A sprite before the viewer's eyes thins out in the last part of the way, so that passing it is no pop.
+//! (sprites.wgsl). A sprite before the viewer's eyes thins out in the last part of the way, so that passing it is no pop.
 //!
 //! # Practice
 //! The one thing that the sprites themselves remember from frame to frame, beside the ring. At most 256 sprites are locked.

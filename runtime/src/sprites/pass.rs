@@ -5,20 +5,20 @@ use welkin_pack::Field;
 use wgpu::util::DeviceExt;
 
 use super::device::{
-    Blocks, STRIDE, amounts_texture, index_buffers, instances_texture, sprites_group,
-    uniform_buffer, upload, write_amounts,
+    Blocks, amounts_texture, index_buffers, instances_texture, sprites_group, uniform_buffer,
+    upload, write_amounts,
 };
 use super::frame::{Frame, cell_texels, screen_view, station};
 use super::grid::{BlockId, around, slots_a_side};
 use super::instances::{A_ROW, Instance};
-use super::lift_m;
 use super::outline::{self, Outline};
-use super::pipelines::{GroupLayouts, Pipelines, one_of, pictures};
+use super::pipelines::{GroupLayouts, Pipelines, STRIDE, one_of, pictures};
 use super::ring::{self, Ring, Station, Step};
 use super::scene::{AMOUNTS_SIDE, Draw, Scene, planes};
-use crate::program::Common;
-use crate::uniforms::{RingUniforms, SpriteView};
-use crate::{Method, SkyModel};
+use super::wind::lift_m;
+use crate::device::common::Common;
+use crate::params::{Method, SkyModel};
+use crate::sprites::ring::{RingUniforms, SpriteView};
 
 /// Views of a frame: the screen's and the ring's pictures'.
 const VIEWS: u64 = 1 + ring::PICTURES as u64;
@@ -166,7 +166,7 @@ impl Pass {
 
     /// Share of the sun's light that comes through to the viewer.
     pub fn clear_towards_sun(&self, frame: &Frame<'_>, sun: Vec3) -> f32 {
-        let opacity = frame.uniforms.sprites.air[2];
+        let opacity = frame.look.air[2];
         let own = &frame.params.sprites;
         let reach = f64::from(own.distance_m);
         self.scene
@@ -360,7 +360,7 @@ impl Pass {
         viewpoint_m: DVec3,
         share: f32,
     ) {
-        let [_, _, width, end] = frame.uniforms.sprites.fade;
+        let [_, _, width, end] = frame.look.fade;
         let billboards = [end - 1.0 / width, end];
         let instances = &self.instances;
         let upload = |row: u32, sprites: &[Instance]| upload(queue, instances, row, sprites);

@@ -1,16 +1,47 @@
 //! The pipelines and the bind groups of the sprites.
 
+use bytemuck::{Pod, Zeroable};
 use welkin_pack::SheetCell;
 
-use super::device::STRIDE;
 use super::outline::Outline;
-use super::ring;
-use crate::layouts::{entry, texture};
-use crate::map::target;
-use crate::pipeline::{depth_state, multisample_state, vertex_state};
-use crate::program::Common;
-use crate::shader::Output;
-use crate::uniforms::{RingUniforms, SpriteBlock, SpriteView};
+use super::{formation, instances, locks, ring};
+use crate::device::common::Common;
+use crate::device::config::Output;
+use crate::device::layouts::{entry, texture, vertex_state};
+use crate::device::map::target;
+use crate::device::pipeline::{depth_state, multisample_state};
+use crate::geometry::part::{Part, Value};
+use crate::sprites::ring::{RingUniforms, SpriteView};
+
+/// Bytes from one view or block to the next: what every device takes as an offset.
+pub const STRIDE: u64 = 256;
+
+/// Its part of the shader.
+pub const PART: Part = Part {
+    constants: &[
+        ("SPRITE_RIM_OPAQUE", Value::F32(super::RIM_OPAQUE)),
+        (
+            "SPRITE_MOST_HALF_SIZE",
+            Value::F32(instances::MOST_HALF_SIZE_M),
+        ),
+        ("SPRITE_MOST_AWAY", Value::F32(instances::MOST_AWAY_M)),
+        ("SPRITES_A_ROW", Value::U32(instances::A_ROW)),
+        ("SPRITE_FIRST_STAGE", Value::F32(formation::FIRST_STAGE)),
+        ("SPRITE_LOCK", Value::F32(locks::LOCK)),
+        ("SPRITE_NEAR", Value::F32(locks::NEAR)),
+    ],
+    wgsl: include_str!("sprites.wgsl"),
+};
+
+/// A block of sprites, in a buffer of its own.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct SpriteBlock {
+    /// xyz: from the viewpoint to its corner; w: its opacity.
+    pub origin: [f32; 4],
+    /// x: number of its first sprite in the texture; y: log2 of the vertices of each.
+    pub slot: [u32; 4],
+}
 
 /// What of a sprite or of the ring is left of the colour behind it: their own is multiplied by their opacity.
 const OVER: wgpu::BlendComponent = wgpu::BlendComponent {
@@ -28,7 +59,7 @@ const KEEP: wgpu::BlendComponent = wgpu::BlendComponent {
 
 /// Layouts of group 1 of sprites and of the ring.
 #[derive(Debug)]
-pub struct GroupLayouts {
+pub(crate) struct GroupLayouts {
     /// Sheet, amounts, view, block.
     pub sprites: wgpu::BindGroupLayout,
     /// View, ring, both rings' pictures.
@@ -37,7 +68,7 @@ pub struct GroupLayouts {
 
 /// The pipelines of one sky model.
 #[derive(Debug)]
-pub struct Pipelines {
+pub(crate) struct Pipelines {
     /// Sprites onto the target.
     pub sprites: wgpu::RenderPipeline,
     /// Sprites into a picture of the ring.
@@ -103,7 +134,7 @@ fn uniform(binding: u32, dynamic: bool, bytes: usize) -> wgpu::BindGroupLayoutEn
 pub const OUTLINES_BYTES: usize = SheetCell::COUNT as usize * size_of::<Outline>();
 
 /// A part of a buffer of [`STRIDE`] bytes a thing.
-pub fn one_of(buffer: &wgpu::Buffer, bytes: usize) -> wgpu::BindingResource<'_> {
+pub(crate) fn one_of(buffer: &wgpu::Buffer, bytes: usize) -> wgpu::BindingResource<'_> {
     debug_assert!(bytes as u64 <= STRIDE);
     wgpu::BindingResource::Buffer(wgpu::BufferBinding {
         buffer,
@@ -113,7 +144,7 @@ pub fn one_of(buffer: &wgpu::Buffer, bytes: usize) -> wgpu::BindingResource<'_> 
 }
 
 /// The format of the ring's pictures: it blends as the target does.
-pub fn picture_format(output: Output) -> wgpu::TextureFormat {
+pub(crate) fn picture_format(output: Output) -> wgpu::TextureFormat {
     match output {
         Output::Encoded => wgpu::TextureFormat::Rgba8Unorm,
         Output::Radiance | Output::Display => wgpu::TextureFormat::Rgba8UnormSrgb,
@@ -121,7 +152,7 @@ pub fn picture_format(output: Output) -> wgpu::TextureFormat {
 }
 
 /// An array of the ring's pictures.
-pub fn pictures(device: &wgpu::Device, output: Output) -> wgpu::Texture {
+pub(crate) fn pictures(device: &wgpu::Device, output: Output) -> wgpu::Texture {
     let size = [ring::SIDE, ring::SIDE, ring::PICTURES as u32];
     target(device, "ring of impostors", picture_format(output), size, 1)
 }

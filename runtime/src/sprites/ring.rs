@@ -18,12 +18,63 @@
 //! A frame that draws one picture draws an eighth of the far sprites, at a thirtieth of the pixels of a screen. Where clouds are seen
 //! so far that a picture has more than [`BLOCKS_A_FRAME`] blocks, it takes several frames.
 
+use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
-
 use welkin_pack::field::SECTION_SIDE_M;
 
 use super::grid::BlockId;
-use crate::uniforms::{RingSet, RingUniforms, SpriteView, vec4};
+use crate::geometry::math::vec4;
+use crate::geometry::part::{Part, Value};
+
+/// Its part of the shader.
+pub const PART: Part = Part {
+    constants: &[
+        ("RING_COS", Value::F32(COSINE)),
+        ("RING_HALF_SIDE", Value::F32(HALF_SIDE)),
+        ("RING_BRIGHTEST", Value::F32(BRIGHTEST)),
+    ],
+    wgsl: include_str!("ring.wgsl"),
+};
+
+/// A viewpoint that sprites are drawn for, in a buffer of its own: see sprites.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct SpriteView {
+    /// Dot of xyz with a place gives its clip x.
+    pub clip_x: [f32; 4],
+    /// The same for y.
+    pub clip_y: [f32; 4],
+    /// The same for z, plus w.
+    pub clip_z: [f32; 4],
+    /// The same as x for w.
+    pub clip_w: [f32; 4],
+    /// x: height above the sea; y: a pixel in radians; z: texels a side of a cell.
+    pub viewer: [f32; 4],
+}
+
+/// One of two rings that are cross-faded: see ring.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct RingSet {
+    /// xyz: from the viewer to the middle of the ring; w: its share.
+    pub place: [f32; 4],
+    /// x: tangent of the elevation at the upper edge; y: 1 / (that less the lower edge's); z: 1 / width of a picture.
+    pub span: [f32; 4],
+}
+
+/// The ring of impostors, in a buffer of its own.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct RingUniforms {
+    /// The ring in use.
+    pub used: RingSet,
+    /// The one that it fades to.
+    pub next: RingSet,
+    /// x: radius; y, z: tangents at the lower and the upper edge of what is drawn.
+    pub walls: [f32; 4],
+    /// Of each side, from the north to the east: outward normal (east, south), and along it, clockwise.
+    pub sides: [[f32; 4]; 8],
+}
 
 /// Pictures of a ring.
 pub const PICTURES: usize = 8;

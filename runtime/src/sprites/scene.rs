@@ -7,13 +7,12 @@ use glam::{DVec3, Vec3, Vec4};
 use welkin_pack::Field;
 use welkin_pack::field::SECTION_SIDE_M;
 
-use super::formation;
 use super::grid::{BlockId, around, slots_a_side};
 use super::instances::{A_ROW, Instance, Section, sections};
 use super::locks::Locks;
 use super::order::{Order, Station};
-use super::outline;
-use crate::SkyParams;
+use super::{formation, outline};
+use crate::params::SkyParams;
 
 /// Texels a side of the texture of amounts: one for each of the most clouds of a field would be 65536.
 pub const AMOUNTS_SIDE: u32 = 256;

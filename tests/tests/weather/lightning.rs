@@ -2,7 +2,8 @@
 
 use glam::{Vec2, Vec3};
 use welkin_pack::mapping;
-use welkin_runtime::{Camera, Method, SkyParams, lightning};
+use welkin_runtime::weather::lightning;
+use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::renderer::{Frame, Twin};
 use welkin_tests::{camera, dome, gpu, pack};
 

@@ -102,8 +102,8 @@ mod tests {
                 .unwrap()
                 .lightning;
             assert_eq!(flash.strength, 1.0);
-            let shown = welkin_runtime::lightning::brightness(&flash, at.parse().unwrap());
-            let later = welkin_runtime::lightning::brightness(&flash, flash.start_s + 0.5);
+            let shown = welkin_runtime::weather::lightning::brightness(&flash, at.parse().unwrap());
+            let later = welkin_runtime::weather::lightning::brightness(&flash, flash.start_s + 0.5);
             // As bright as a flash of this strength gets, but for its rise, and far from its end.
             assert!(shown > 0.5 && shown > 2.0 * later, "{shown} {later}");
         }

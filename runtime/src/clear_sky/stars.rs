@@ -1,0 +1,186 @@
+//! Stars: each flickers by its own four numbers, and stays a point.
+//!
+//! # Theory
+//! A star shines `I(t) = mean + variance sin(2 pi (rate t + phase))` (Roden and Parberry, section 4).
+//! The texture is tiled on the plane of Lambert's equal-area dome, so that no place has more stars than
+//! another (welkin_pack::mapping).
+//!
+//! # Changes versus the paper
+//! The paper samples the texture like a picture, which blends rates and phases of neighbours. Here one
+//! texel is read whole and decoded; the star is a point at the texel's centre, projected to the screen,
+//! and drawn as a tent one pixel wide each way. The tents of the pixels around it add up to one
+//! wherever it is, so that a star which moves over the screen neither shimmers nor changes its light.
+//!
+//! A tent fits into its texel where the texel is at least 2 sqrt(2) pixels wide: then one texel is all that a pixel
+//! reads. Near the horizon the projection narrows texels by sqrt(1/2), and the tents of some stars lose their
+//! outermost corners there. On a coarser screen a pixel looks at every texel that its tent may reach, of the level
+//! above: that tells where there are stars at all, and those are read from the level below it. The records are those
+//! of level 0 down to 185 lines at a field of view of 60 degrees; beyond that, of stars whose light was added up.
+//!
+//! Away from the lens' axis, at an angle t to it, a pixel covers cos^3 t of the solid angle that one in the middle does. On a screen
+//! that is nobody's concern; a map of radiance divides by it ([`crate::SkyParams::even_stars`]).
+//!
+//! # Practice
+//! One texture read a pixel at night, the rest only where there is a star (about one pixel in 40). Where a texel is too
+//! narrow, about a dozen.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+use welkin_pack::StarTexel;
+use welkin_pack::mapping::{STAR_TILE_SIDE, STAR_TILE_START};
+
+use crate::geometry::part::{Part, Value};
+
+/// Its part of the shader.
+pub const PART: Part = Part {
+    constants: &[
+        ("STAR_TILE_SIDE", Value::F32(STAR_TILE_SIDE)),
+        ("STAR_RATE_STEPS", Value::F32(255.0)),
+        ("STAR_GALAXY_BOOST", Value::F32(GALAXY_BOOST)),
+        ("STAR_START", Value::Vec2(STAR_TILE_START)),
+        ("STAR_WARM", Value::Vec3(WARM)),
+        ("STAR_COLD", Value::Vec3(COLD)),
+    ],
+    wgsl: include_str!("stars.wgsl"),
+};
+
+/// Stars.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct StarUniforms {
+    /// x: level of the records; y: texels a side of that level; z: place in the flicker's period, 0..1; w: brightness.
+    pub field: [f32; 4],
+    /// x: 1 if light is spread over the pixel's own solid angle, 0 if over that of one in the middle; y: 1 if the level above that of the
+    /// records tells where they are, 0 if a pixel reads one texel alone; z: how far a tent reaches, in radians; w: not used.
+    pub spread: [f32; 4],
+}
+
+/// How much brighter a star is in the brightest part of the galaxy, less one: "stars inside the galaxies
+/// receive an additional intensity increase" (section 4).
+pub const GALAXY_BOOST: f32 = 3.0;
+
+/// Colours of the stars, from phase 0 to phase 1, of about equal luminance: 4000 K and 12000 K.
+pub const WARM: Vec3 = Vec3::new(1.15, 0.97, 0.76);
+/// See [`WARM`].
+pub const COLD: Vec3 = Vec3::new(0.84, 1.0, 1.30);
+
+/// Radiance of a star of intensity 1 that fills its pixel.
+const BRIGHTNESS: f32 = 1.6;
+
+/// The narrowest texel into which the tent of a star fits at any turn, in pixels: its diagonal.
+const MIN_TEXEL_PX: f32 = 2.0 * std::f32::consts::SQRT_2;
+
+/// The narrowest texel of the level that tells where there are stars, in pixels: a tent then reaches four of them each
+/// way at most, five next to the horizon.
+const MIN_GUIDE_PX: f32 = 1.25;
+
+/// Which level is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Levels {
+    /// That of the records.
+    records: u32,
+    /// Whether the level above it tells where they are; otherwise a pixel reads the one texel that it lies in.
+    guided: bool,
+}
+
+/// The stars' share of the uniforms. `texels` is the side of level 0, `units` are those of
+/// [`StarTexel::level_units`], `pixel_rad` width and height of a pixel in the middle of the screen, `even` is
+/// [`crate::SkyParams::even_stars`].
+pub fn uniforms(
+    texels: u32,
+    units: &[f32],
+    pixel_rad: [f32; 2],
+    night: f32,
+    even: bool,
+    seconds: f64,
+) -> StarUniforms {
+    let Levels { records, guided } = levels(texels, units.len(), pixel_rad);
+    let texel_sr = (STAR_TILE_SIDE / texels as f32) * (STAR_TILE_SIDE / texels as f32);
+    let pixel_sr = pixel_rad[0] * pixel_rad[1];
+    let unit = units.get(records as usize).copied().unwrap_or(1.0);
+    let brightness = BRIGHTNESS * night * unit * texel_sr / pixel_sr;
+    let number = |is: bool| f32::from(u8::from(is));
+    StarUniforms {
+        field: [
+            records as f32,
+            (texels >> records).max(1) as f32,
+            period(seconds),
+            brightness,
+        ],
+        spread: [
+            number(even),
+            number(guided),
+            pixel_rad[0].hypot(pixel_rad[1]),
+            0.0,
+        ],
+    }
+}
+
+fn levels(texels: u32, levels: usize, pixel_rad: [f32; 2]) -> Levels {
+    let texel_px = |level: u32| {
+        let side = (texels >> level).max(1) as f32;
+        STAR_TILE_SIDE / side / pixel_rad[0].max(pixel_rad[1])
+    };
+    let last = levels.saturating_sub(1) as u32;
+    if last == 0 || texel_px(0) >= MIN_TEXEL_PX {
+        return Levels {
+            records: 0,
+            guided: false,
+        };
+    }
+    let fits = |guide: u32| texel_px(guide) >= MIN_GUIDE_PX;
+    let guide = (1..last).find(|&guide| fits(guide)).unwrap_or(last);
+    Levels {
+        records: guide - 1,
+        guided: true,
+    }
+}
+
+/// Place in the flicker's period, 0..1: reduced in 64 bits, so that any time can be drawn.
+fn period(seconds: f64) -> f32 {
+    let turns = seconds / StarTexel::PERIOD_S;
+    // A value that rounds up to 1 is the start of the next period.
+    ((turns - turns.floor()) as f32).min(1.0 - f32::EPSILON)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn records_are_read_from_level_0_down_to_small_pictures() {
+        let pixel = |texel_px: f32| [1.0 / (256.0 * texel_px); 2];
+        let at = |texel_px: f32| {
+            let Levels { records, guided } = levels(256, 9, pixel(texel_px));
+            (records, guided)
+        };
+        assert_eq!(at(4.0), (0, false));
+        assert_eq!(at(2.84), (0, false));
+        assert_eq!(at(2.82), (0, true));
+        assert_eq!(at(0.63), (0, true));
+        assert_eq!(at(0.62), (1, true));
+        assert_eq!(at(1e-6), (7, true), "never beyond the last");
+        for levels_of_one in [0, 1] {
+            assert!(!levels(256, levels_of_one, pixel(1e-6)).guided);
+        }
+    }
+
+    #[test]
+    fn the_same_sky_returns_after_each_period() {
+        assert_eq!(period(0.0), period(640.0));
+        assert_eq!(period(1e6), period(1e6 + 64.0 * 1e6));
+        assert!((0.0..1.0).contains(&period(-1e-12)));
+    }
+
+    #[test]
+    fn light_does_not_depend_on_the_level() {
+        // A step of level 1 stands for three of level 0.
+        let units = [1.0, 3.0, 3.0];
+        let at = |pixel_rad: f32| uniforms(256, &units, [pixel_rad; 2], 1.0, false, 0.0).field;
+        let (fine, coarse) = (at(1e-3), at(8e-3));
+        assert_eq!((fine[0], coarse[0]), (0.0, 1.0));
+        let per_step = |field: [f32; 4], pixel_rad: f32| field[3] * pixel_rad * pixel_rad;
+        let ratio = per_step(coarse, 8e-3) / per_step(fine, 1e-3);
+        assert!((ratio - 3.0).abs() < 1e-5);
+    }
+}

@@ -1,0 +1,217 @@
+//! The fbm method: one layer of clouds from drifting octaves of noise, lit by a short march towards the sun.
+//!
+//! # Theory
+//! I. Quilez, "Dynamic Clouds", 2005. The octaves of a fractal sum are kept apart and moved each with its own velocity, so
+//! that their sum changes its shape ([`crate::clouds::fbm_map`]). A threshold a and a sharpness b open the sky by a linear map. Four
+//! heights along a ray towards the sun tell how much cloud the light has passed; it blends two colours of the user.
+//!
+//! # Changes versus the article
+//! - a is found from the cover: the share of a normal distribution with the mean and the spread of the pack's octaves.
+//! - Opacity rises smoothly from the article's cover and is full at [`FULL`] of it: its straight line makes either
+//!   hard feet or glassy bodies.
+//! - The two colours are reflectances; the light of the time of day falls on them.
+//! - The dome reads the map a second time, finer: four octaves of 8 to 64 cells are soft so near to the eye. It roughens
+//!   edges only.
+//!
+//! # Practice
+//! Two reads of the map a pixel, whatever the number of octaves.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DMat2, DVec2, Vec3};
+
+use crate::clouds::fbm_map::Octaves;
+use crate::clouds::octaves_map::{NORMAL_BEND, NORMAL_SLOPE};
+use crate::clouds::shared::{CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, closing, offset};
+use crate::clouds::{fbm_map, fbm_pack};
+use crate::geometry::math::vec4;
+use crate::geometry::part::{Part, Value};
+use crate::params::SkyParams;
+
+/// Its part of the shader.
+pub const PART: Part = Part {
+    constants: &[
+        ("FBM_FINER", Value::F32(FINER)),
+        ("FBM_FINER_LEVEL", Value::Log2(FINER)),
+        ("FBM_ROUGH_SHADE", Value::F32(ROUGH_SHADE)),
+        ("FBM_FULL", Value::F32(FULL)),
+        ("FBM_FINER_START", Value::Vec2(FINER_START)),
+    ],
+    wgsl: include_str!("fbm.wgsl"),
+};
+
+/// Clouds of the fbm method.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct FbmUniforms {
+    /// xy: what a height to the east, zw: to the south adds to uv.
+    pub axes: [f32; 4],
+    /// xy: offset; z: level of detail at distance 1.
+    pub place: [f32; 4],
+    /// x: m; y: n; z: octaves; w: texels a side of the map.
+    pub remap: [f32; 4],
+    /// rgb: the lit colour; w: what the shade is multiplied by.
+    pub lit: [f32; 4],
+    /// rgb: the shaded colour; w: share of the finer read.
+    pub shaded: [f32; 4],
+    /// xy: a step of the ray towards the sun, in tiles; z: mean of the sum of octaves; w: n for the ray's heights.
+    pub step: [f32; 4],
+    /// Offsets of octaves 1 and 2.
+    pub offsets_a: [f32; 4],
+    /// 3 and 4.
+    pub offsets_b: [f32; 4],
+    /// 5 and 6.
+    pub offsets_c: [f32; 4],
+    /// 7 and 8.
+    pub offsets_d: [f32; 4],
+    /// Weights of octaves 1 to 4.
+    pub weights_a: [f32; 4],
+    /// 5 to 8.
+    pub weights_b: [f32; 4],
+}
+
+/// How much finer the second read of the map is. A whole number: offsets are reduced by whole tiles.
+pub const FINER: f32 = 5.0;
+/// Where the second read starts.
+pub const FINER_START: [f32; 2] = [0.13, 0.57];
+
+/// The cover in the map at which the sky is full: above it clouds are opaque, whatever their height.
+pub const FULL: f32 = 0.62;
+/// How much the finer read changes the shade where the sky is full.
+pub const ROUGH_SHADE: f32 = 0.9;
+
+/// How far the map reaches in heights of the layer, at height 0 and 1.
+const TILE: [f64; 2] = [7.0, 3.4];
+/// How the map is turned against the world, in radians: the article moves octaves along the axes of the map.
+const TURN: f64 = 0.52;
+/// Where the map lies over the viewer.
+const START: DVec2 = DVec2::new(0.41, 0.27);
+
+/// From a to b in standard deviations of the sum, at sharpness 0 and 1.
+const SLOPE: [f32; 2] = [3.6, 0.4];
+/// The lowest that a goes for the heights along the ray, in standard deviations from the mean.
+const LOWEST_RAY: f32 = -0.8;
+/// The farthest that a goes from the mean, in standard deviations: beyond it is nothing.
+const FARTHEST: f32 = 4.0;
+
+/// The method's share of the uniforms. `params` are in range; `sun` is the unit direction towards the sun.
+pub fn uniforms(params: &SkyParams, view: &CloudView, octaves: &Octaves, sun: Vec3) -> FbmUniforms {
+    let own = params.fbm;
+    let tile = TILE[0] + (TILE[1] - TILE[0]) * f64::from(params.height);
+    let axes = DMat2::from_angle(TURN) * (1.0 / tile);
+    let [x, y] = offset(START + axes * view.place(LOW_HEIGHT_M));
+    let near = view.distance(LOW_HEIGHT_M);
+    let texels_a_height = f64::from(fbm_map::SIDE) / tile * near;
+    // Tiles that the slowest octave goes.
+    let way = MAX_WIND * f64::from(params.speed) * view.seconds / tile;
+    let offsets = fbm_map::offsets(way);
+    let weights = fbm_map::weights(octaves);
+    let (mean, spread) = fbm_map::mean_and_spread(octaves);
+    let [m, n, n_of_ray] = remap(params.cover, own.sharpness, mean, spread);
+    let step = fbm_pack::step(sun, TURN);
+    let pair = |k: usize| {
+        [
+            offsets[k][0],
+            offsets[k][1],
+            offsets[k + 1][0],
+            offsets[k + 1][1],
+        ]
+    };
+    FbmUniforms {
+        axes: (axes * near).to_cols_array().map(|v| v as f32),
+        place: [x, y, view.level(texels_a_height), 0.0],
+        remap: [m, n, octaves.count() as f32, fbm_map::SIDE as f32],
+        lit: vec4(Vec3::from(own.lit), 0.85 + 0.25 * params.density),
+        shaded: vec4(Vec3::from(own.shaded), 0.9),
+        step: [step[0], step[1], mean, n_of_ray],
+        offsets_a: pair(0),
+        offsets_b: pair(2),
+        offsets_c: pair(4),
+        offsets_d: pair(6),
+        weights_a: [weights[0], weights[1], weights[2], weights[3]],
+        weights_b: [weights[4], weights[5], weights[6], weights[7]],
+    }
+}
+
+/// The article's m and n: `m = 1 / (b - a)`, `n = -a / (b - a)`; and n for the heights along the ray.
+///
+/// In a shut sky every height would be far above the ray: there a stays at what leaves light and shade.
+fn remap(cover: f32, sharpness: f32, mean: f32, spread: f32) -> [f32; 3] {
+    let slope = SLOPE[0] + (SLOPE[1] - SLOPE[0]) * sharpness;
+    let quantile = normal_quantile(1.0 - cover);
+    // An overcast has no holes: a sinks until even the thinnest place is opaque.
+    let a = mean + spread * (quantile - slope * closing(cover));
+    let a_of_ray = mean + spread * quantile.max(LOWEST_RAY);
+    let m = 1.0 / (spread * slope);
+    [m, -a * m, -a_of_ray * m]
+}
+
+/// The z below which a share of the normal distribution lies, by bisection of the shader's own approximation.
+fn normal_quantile(share: f32) -> f32 {
+    let (mut low, mut high) = (-FARTHEST, FARTHEST);
+    for _ in 0..24 {
+        let z = 0.5 * (low + high);
+        let below = 0.5 + 0.5 * (NORMAL_SLOPE * z * (1.0 + NORMAL_BEND * z * z)).tanh();
+        if below < share { low = z } else { high = z }
+    }
+    0.5 * (low + high)
+}
+
+/// Radiance of a shut sky far away: every height along the ray is the mean one.
+pub fn overcast(fbm: &FbmUniforms, clouds: &CloudUniforms) -> Vec3 {
+    let xyz = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
+    let height = fbm.remap[0] * fbm.step[2] + fbm.step[3];
+    let inside = fbm_map::DEPTHS
+        .iter()
+        .map(|depth| (height - depth).max(0.0))
+        .sum::<f32>()
+        / 4.0;
+    let shade = fbm.lit[3] * (1.0 - (-fbm_map::ABSORPTION * inside).exp2());
+    let colour = xyz(fbm.lit).lerp(xyz(fbm.shaded), shade.clamp(0.0, 1.0));
+    colour * (xyz(clouds.sunlight) + xyz(clouds.ambient))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_remap_is_the_articles_line() {
+        let (mean, spread) = (0.5, 0.1);
+        for (cover, sharpness) in [(0.2, 0.0), (0.5, 0.5), (0.8, 1.0)] {
+            let [m, n, _] = remap(cover, sharpness, mean, spread);
+            let (a, b) = (-n / m, (1.0 - n) / m);
+            let slope = SLOPE[0] + (SLOPE[1] - SLOPE[0]) * sharpness;
+            assert!((b - a - spread * slope).abs() < 1e-5);
+            assert!((m - 1.0 / (b - a)).abs() < 1e-2 && (n + a / (b - a)).abs() < 1e-2);
+        }
+        let [m, n, _] = remap(0.5, 0.5, mean, spread);
+        assert!(
+            (-n / m - mean).abs() < 1e-4,
+            "half the sky is above the mean"
+        );
+    }
+
+    #[test]
+    fn quantiles_are_those_of_the_tables() {
+        // NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.1: 0.84134 below 1, 0.97725 below 2.
+        for (share, z) in [
+            (0.5, 0.0),
+            (0.841_34, 1.0),
+            (0.977_25, 2.0),
+            (0.158_66, -1.0),
+        ] {
+            assert!((normal_quantile(share) - z).abs() < 5e-3, "{share}");
+        }
+        assert!(normal_quantile(0.0) < -3.9 && normal_quantile(1.0) > 3.9);
+    }
+
+    #[test]
+    fn a_shut_sky_is_opaque_where_it_is_thinnest_and_a_clear_one_empty_where_it_is_thickest() {
+        let height = |cover: f32, z: f32| {
+            let [m, n, _] = remap(cover, 0.45, 0.5, 0.1);
+            m * (0.5 + 0.1 * z) + n
+        };
+        assert!(height(1.0, -3.9) >= 1.0, "{}", height(1.0, -3.9));
+        assert!(height(0.0, 3.9) <= 0.0, "{}", height(0.0, 3.9));
+    }
+}

@@ -1,0 +1,490 @@
+//! The lit method: layers of clouds with normals, lit, lighted through and shaded.
+//!
+//! # Theory
+//! K. Mukhina, A. Bezgodov, "The Method for Real-time Cloud Rendering", Procedia Computer Science 66, 2015. Layers lie on an
+//! oblate hemisphere about the viewer. Cover takes the brightest parts of a noise; its normals give the light that falls on the cloud,
+//! `LT = (n, S) L` (eq. 3); what comes through it is `LS = (k1 + k2 (v, S))^m L` (eq. 4); clouds towards the sun shade it,
+//! `SH = (1 - sum C)^m` (eq. 5), blurred radially from where the sun stands; and `F = (LS + LT) SH` (eq. 6). Up to
+//! three layers are drawn in an iteration.
+//!
+//! # Changes versus the paper
+//! - The dome is intersected for each pixel: with the radius a, the height b and the flattening `f = b / a`, a ray meets it at
+//!   `t = 1 / sqrt(f^2 + (1 - f^2) y^2)` heights, y the sine of the elevation. [`mesh`] gives the paper's grid.
+//! - The paper's clouds are a noise that is shifted. Here each layer blends two reads that move apart, so clouds form and
+//!   dissolve; the blend is brought back to an even distribution, so cover stays the covered share.
+//! - Cover is calibrated: shares of [`SkyParams::cover`] go to the layers such that together they cover it.
+//! - Normals, opacity and shade are functions of the place in a layer, so they are drawn off screen ([`crate::clouds::lit_map`]). Layers shade
+//!   the layers below them by what they leave of the light, a product in place of the paper's sum.
+//! - The radial blur has three places on the way to where the sun is seen on the dome ([`BLUR`]), as far apart as the light of a sun at
+//!   that place would go through a cloud of the kind's thickness; its length, which the paper does not tell, ends at [`LONGEST_WAY`].
+//! - Light of the sky is added: the paper's shaded clouds are black.
+//! - Normals are those of a flat layer, wherever it hangs on the dome: the dome brings the horizon near, clouds do not lean. So all of `LT`
+//!   is in the map.
+//! - In the night the moon lights the clouds; it is full and stands opposite the sun.
+//!
+//! - The map has one texel in a degree. So each iteration reads the pack's texture once more, finer, where its lowest layer is: a grain
+//!   that roughens the edges and the light of its layers.
+//!
+//! # Practice
+//! Ten reads of texture arrays an iteration of three layers, used or not. Four passes of 256 texels and less an iteration.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DMat2, DVec2, Vec2, Vec3};
+use welkin_pack::LayerKind;
+
+use crate::clear_sky::light::{Light, luminary};
+use crate::clouds::lit_map;
+use crate::clouds::shared::{CloudUniforms, CloudView, OPAQUE, before_smoothstep, closing, offset};
+use crate::geometry::dome;
+use crate::geometry::dome::{Hit, Mesh};
+use crate::geometry::math::{smoothstep, vec4};
+use crate::geometry::part::{Part, Value};
+use crate::params::{LitLayer, MAX_LAYERS, SkyParams};
+
+/// Its part of the shader.
+pub const PART: Part = Part {
+    constants: &[
+        ("LIT_FINER", Value::F32(FINER)),
+        ("LIT_FINER_LEVEL", Value::Log2(FINER)),
+        ("LIT_FINER_RELIEF", Value::F32(FINER_RELIEF)),
+        ("LIT_SHADED_BY_LAYER", Value::F32(SHADED_BY_LAYER)),
+        ("LIT_LEAST_STRETCH", Value::F32(LEAST_STRETCH)),
+        ("LIT_BLUR_LEVEL", Value::F32(BLUR_LEVEL)),
+        ("LIT_LONGEST_WAY", Value::F32(LONGEST_WAY)),
+        ("LIT_FINER_START", Value::Vec2(FINER_START)),
+        ("LIT_AMBIENT", Value::Vec2(AMBIENT)),
+        ("LIT_BLUR", Value::Vec3(Vec3::from_array(BLUR))),
+    ],
+    wgsl: include_str!("lit.wgsl"),
+};
+
+/// A layer of the lit method.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct LitLayerUniforms {
+    /// xy: what a height of the dome to the east, zw: to the south adds to uv.
+    pub axes: [f32; 4],
+    /// xy: offset; zw: how far the second read is from the first.
+    pub place: [f32; 4],
+    /// x: the cut; y: 1 / thickness at which it is opaque; z: opacity where thick; w: how fast shade deepens.
+    pub shape: [f32; 4],
+    /// x: share of the way to the sun that a step of the blur takes; z: level of detail at distance 1; w: layer of the pack's texture.
+    pub sun: [f32; 4],
+    /// xy: horizontal part of the direction to the sun, along u and v; z: share of the grain; w: relief.
+    pub facing: [f32; 4],
+}
+
+/// Clouds of the lit method.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct LitUniforms {
+    /// x: `f^2`; y: `1 - f^2`, f the flattening; z: layers; w: texels a side of the map.
+    pub dome: [f32; 4],
+    /// rgb: light of sun or moon on clouds; w: k1.
+    pub light: [f32; 4],
+    /// xyz: unit direction towards sun or moon; w: k2.
+    pub towards: [f32; 4],
+    /// xy: where sun or moon is seen on the dome's plane, in its heights.
+    pub source: [f32; 4],
+    /// rgb: light of the sky on clouds; w: m.
+    pub ambient: [f32; 4],
+    /// From the lowest to the highest.
+    pub layers: [LitLayerUniforms; MAX_LAYERS],
+}
+
+/// How much finer the grain is, a read of the pack's texture. A whole number: offsets are reduced by whole tiles.
+pub const FINER: f32 = 5.0;
+/// Where the grain starts.
+pub const FINER_START: [f32; 2] = [0.29, 0.63];
+/// How much of the grain's normal is added, times the layer's share of the grain.
+pub const FINER_RELIEF: f32 = 0.19;
+/// What a layer behind leaves of the light where it is opaque.
+pub const SHADED_BY_LAYER: f32 = 0.45;
+/// Shares of a place's own shade and of those of two places towards the sun in its blurred shade: nearer cloud counts more.
+pub const BLUR: [f32; 3] = [3.0 / 6.0, 2.0 / 6.0, 1.0 / 6.0];
+/// How much coarser those two are read: they are several texels apart.
+pub const BLUR_LEVEL: f32 = 1.5;
+/// The longest way to the sun that the blur takes a share of, in heights of the dome: so far is the sun on it at 22 degrees.
+pub const LONGEST_WAY: f32 = 2.5;
+/// The light of the sky on a cloud in full shade, and what light adds to it.
+pub const AMBIENT: [f32; 2] = [0.62, 0.38];
+/// The least radial stretch of a texel, over the tangential one, that chooses the level of detail.
+pub const LEAST_STRETCH: f32 = 0.25;
+
+/// How layers of a kind look.
+struct Look {
+    /// How far the texture reaches, in metres, at height 0 and 1.
+    tile_m: [f64; 2],
+    /// Thickness, as a share of the layer's distribution, at which it is opaque.
+    opaque: f32,
+    /// Opacity where it is thick.
+    opacity: f32,
+    /// How fast shade deepens.
+    shade: f32,
+    /// Factor on the horizontal part of normals.
+    relief: f32,
+    /// How much the grain roughens it, 0 for not at all.
+    grain: f32,
+    /// How thick such clouds are, in metres: how far their shade reaches.
+    thickness_m: f64,
+}
+
+const fn look(kind: LayerKind) -> Look {
+    match kind {
+        LayerKind::Stratocumulus => Look {
+            tile_m: [10_000.0, 5_000.0],
+            opaque: 0.30,
+            opacity: 1.0,
+            shade: 2.1,
+            relief: 1.0,
+            grain: 2.6,
+            thickness_m: 350.0,
+        },
+        LayerKind::Cumulus => Look {
+            tile_m: [10_500.0, 5_500.0],
+            opaque: 0.20,
+            opacity: 1.0,
+            shade: 3.0,
+            relief: 1.0,
+            grain: 2.6,
+            thickness_m: 700.0,
+        },
+        LayerKind::Cirrus => Look {
+            tile_m: [42_000.0, 24_000.0],
+            opaque: 0.9,
+            opacity: 0.65,
+            shade: 0.5,
+            relief: 0.5,
+            grain: 0.0,
+            thickness_m: 200.0,
+        },
+    }
+}
+
+/// How layers are turned against the world, in radians: no two alike, none along an axis.
+const TURNS: [f64; MAX_LAYERS] = [0.43, 1.29, 2.6, 3.7, 4.4, 5.6];
+/// Where the textures lie over the viewer at time 0.
+const STARTS: [DVec2; MAX_LAYERS] = [
+    DVec2::new(0.13, 0.71),
+    DVec2::new(0.57, 0.29),
+    DVec2::new(0.83, 0.47),
+    DVec2::new(0.31, 0.93),
+    DVec2::new(0.07, 0.17),
+    DVec2::new(0.69, 0.61),
+];
+/// Cells of the kinds' noise across the tile, roughly: a cloud has formed anew when the second read has gone one.
+const CELLS: f64 = 12.0;
+/// The way of the second read, turned against the layer.
+const CHANGE_WAY: DVec2 = DVec2::new(0.8, -0.6);
+/// How much less a shut sky is shaded: light comes from all sides.
+const EVENED: f32 = 0.65;
+/// Cover of a layer below which it is a trace.
+const TRACE: f32 = 0.02;
+/// Cover of a layer from which it shuts: more than seven oktas, which are to be seven.
+const SHUTTING: f32 = 0.9;
+/// How much the cut goes below 0 in an overcast.
+const OVERCAST: f32 = 0.5;
+/// Azimuths over which eq. 4 is averaged around half of the horizon; the other half is the same.
+const AZIMUTHS: u32 = 8;
+/// The opacity above which a direction counts as covered: where the cut lies.
+const COVERED: f32 = OPAQUE;
+
+/// Where a ray from the viewer along a unit direction meets the oblate dome of this flattening.
+///
+/// In heights of the dome, viewer at the origin: 1 overhead, `1 / flattening` on the horizon.
+pub fn intersect(flattening: f32, direction: Vec3) -> Hit {
+    let f2 = flattening * flattening;
+    let distance = (f2 + (1.0 - f2) * direction.y * direction.y).sqrt().recip();
+    let position = direction * distance;
+    // The gradient of f^2 (x^2 + z^2) + y^2.
+    let normal = Vec3::new(f2 * position.x, position.y, f2 * position.z).normalize();
+    Hit {
+        position,
+        distance,
+        cos_incidence: normal.dot(direction),
+    }
+}
+
+/// The paper's grid: the dome as [`dome::mesh`] makes it, with the oblate dome's coordinates, in its heights.
+pub fn mesh(flattening: f32, step_deg: f32) -> Mesh {
+    dome::mesh_of(step_deg, |direction| {
+        intersect(flattening, direction).position
+    })
+}
+
+/// The method's share of the uniforms. `params` are in range.
+pub fn uniforms(
+    params: &SkyParams,
+    view: &CloudView,
+    light: &Light,
+    clouds: &CloudUniforms,
+) -> LitUniforms {
+    let own = &params.lit;
+    let light = luminary(light, own.moon);
+    let sun = light.sun_direction;
+    let f2 = own.flattening * own.flattening;
+    let seen = intersect(own.flattening, sun).position;
+    let mut layers = [LitLayerUniforms::default(); MAX_LAYERS];
+    let mut count = 0;
+    for (slot, (index, cover)) in layers.iter_mut().zip(drawn(params)) {
+        *slot = layer_uniforms(params, view, index, cover, sun);
+        count += 1;
+    }
+    LitUniforms {
+        dome: [f2, 1.0 - f2, count as f32, lit_map::SIDE as f32],
+        light: vec4(light.sunlight * shut(params.cover), own.k1),
+        towards: vec4(sun, own.k2),
+        source: vec4(Vec3::new(seen.x, seen.z, 0.0), 0.0),
+        ambient: [
+            clouds.ambient[0],
+            clouds.ambient[1],
+            clouds.ambient[2],
+            own.m,
+        ],
+        layers,
+    }
+}
+
+/// The layers that are drawn, by their index in [`crate::LitParams::layers`], with what each covers.
+pub(crate) fn drawn(params: &SkyParams) -> impl Iterator<Item = (usize, f32)> {
+    let layers = params.lit.layers.iter().enumerate();
+    layers
+        .map(|(index, layer)| (index, layer_cover(params, layer)))
+        .filter(|(_, cover)| *cover > 0.0)
+}
+
+/// Height of a layer over the ground, in metres.
+pub(crate) fn height_m(params: &SkyParams, index: usize) -> f64 {
+    let own = &params.lit;
+    let height = own.layers[index].height;
+    f64::from(own.radius_m) * f64::from(own.flattening) * f64::from(height)
+}
+
+/// Share of the light that a shut sky lets through to its own underside.
+fn shut(cover: f32) -> f32 {
+    1.0 - crate::clouds::shared::SHADE * closing(cover)
+}
+
+/// The share of the sky that a layer covers: `1 - cover` is the product of what they leave open.
+pub(crate) fn layer_cover(params: &SkyParams, layer: &LitLayer) -> f32 {
+    let shares: f32 = params.lit.layers.iter().map(|l| l.share).sum();
+    if layer.share == 0.0 {
+        return 0.0;
+    }
+    1.0 - (1.0 - params.cover).powf(layer.share / shares)
+}
+
+fn layer_uniforms(
+    params: &SkyParams,
+    view: &CloudView,
+    index: usize,
+    cover: f32,
+    sun: Vec3,
+) -> LitLayerUniforms {
+    let (own, layer) = (&params.lit, &params.lit.layers[index]);
+    let look = look(layer.kind);
+    let height_m = height_m(params, index);
+    let [low, high] = look.tile_m;
+    let tile_m = low + (high - low) * f64::from(params.height);
+    let turn = DMat2::from_angle(TURNS[index]);
+    // Tiles a height.
+    let axes = turn * (height_m / tile_m);
+    let [east, south] = layer.velocity_m_s.map(f64::from);
+    let way = DVec2::new(east, south) * (f64::from(params.speed) * view.seconds / height_m);
+    let [x, y] = offset(STARTS[index] + axes * (view.place(height_m) - way));
+    let intervals = view.seconds / f64::from(own.formation_interval_s);
+    let [change_x, change_y] = offset(STARTS[5 - index] + CHANGE_WAY * (intervals / CELLS));
+    let near = view.distance(height_m);
+    let texels_a_height = f64::from(lit_map::SIDE) * height_m / tile_m * near;
+    let towards = Vec2::new(sun.x, sun.z).as_dvec2();
+    // Of two steps each way; a viewer near the layer sees no farther than to the sun.
+    let step = 0.5 * (look.thickness_m / (height_m * near)).min(1.0);
+    let steepness = (1.0 + params.density) / look.opaque;
+    let facing = (turn * towards).as_vec2();
+    LitLayerUniforms {
+        axes: (axes * near).to_cols_array().map(|v| v as f32),
+        place: [x, y, change_x, change_y],
+        shape: [
+            cut(cover, steepness, look.opacity),
+            steepness,
+            look.opacity,
+            look.shade * (0.6 + 0.8 * params.density) * (1.0 - EVENED * closing(params.cover)),
+        ],
+        sun: [
+            step as f32,
+            0.0,
+            view.level(texels_a_height),
+            layer.kind as u32 as f32,
+        ],
+        facing: [facing.x, facing.y, look.grain, look.relief],
+    }
+}
+
+/// The amount from which there is cloud, such that the densest `cover` of the layer counts as covered.
+fn cut(cover: f32, steepness: f32, opacity: f32) -> f32 {
+    let thin = before_smoothstep(COVERED / opacity) / steepness;
+    // A trace of cover brings its thin edge in by degrees.
+    let edge = thin * (cover / TRACE).min(1.0);
+    1.0 - cover - edge - OVERCAST * smoothstep(SHUTTING, 1.0, cover)
+}
+
+/// Radiance of a shut sky far away: layers where they have their mean, flat, around the whole horizon.
+pub fn overcast(lit: &LitUniforms) -> Vec3 {
+    let rgb = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
+    let (k1, k2, m) = (lit.light[3], lit.towards[3], lit.ambient[3]);
+    let [cut, .., shade] = lit.layers[0].shape;
+    let shade = (-m * shade * (0.5 - cut.max(0.0)).max(0.0)).exp2();
+    let level = Vec2::new(lit.towards[0], lit.towards[2]).length();
+    let azimuth_rad = |i: u32| (i as f32 + 0.5) / AZIMUTHS as f32 * std::f32::consts::PI;
+    let through = (0..AZIMUTHS).map(|i| (k1 + k2 * level * azimuth_rad(i).cos()).max(0.0).powf(m));
+    let light = lit.towards[1].max(0.0) + through.sum::<f32>() / AZIMUTHS as f32;
+    rgb(lit.light) * (light * shade) + rgb(lit.ambient) * (AMBIENT[0] + AMBIENT[1] * shade)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::clear_sky::light::MOONLIGHT;
+    use crate::params::LitParams;
+
+    const LIGHT: Light = Light {
+        sun_direction: Vec3::new(0.6, 0.8, 0.0),
+        sunlight: Vec3::ONE,
+        skylight: Vec3::splat(0.2),
+        night: 0.0,
+    };
+
+    fn at(params: &SkyParams, seconds: f64, place_m: DVec3) -> LitUniforms {
+        let view = CloudView {
+            texels: 512,
+            pixel_rad: 1e-3,
+            seconds,
+            place_m,
+        };
+        uniforms(params, &view, &LIGHT, &CloudUniforms::default())
+    }
+
+    #[test]
+    fn rays_meet_the_ellipsoid() {
+        for flattening in [0.02, 0.1, 0.5, 1.0] {
+            for (azimuth, elevation) in [(0.0, 0.0), (1.0, 0.01), (2.0, 0.4), (5.0, 1.57)] {
+                let direction = Vec3::from(welkin_pack::mapping::direction_from_angles(
+                    azimuth, elevation,
+                ));
+                let hit = intersect(flattening, direction);
+                let p = hit.position;
+                let across = flattening * flattening * (p.x * p.x + p.z * p.z);
+                assert!((across + p.y * p.y - 1.0).abs() < 1e-5, "{flattening} {p}");
+                assert!((0.0..=1.0 + 1e-6).contains(&hit.cos_incidence));
+            }
+            assert!((intersect(flattening, Vec3::Y).distance - 1.0).abs() < 1e-6);
+            let rim = intersect(flattening, Vec3::X).distance;
+            assert!((rim * flattening - 1.0).abs() < 1e-5);
+        }
+        assert!((intersect(1.0, Vec3::new(0.6, 0.8, 0.0)).cos_incidence - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn layers_together_cover_the_cover() {
+        for cover in [0.0, 0.125, 0.5, 0.9, 1.0] {
+            let params = SkyParams {
+                cover,
+                ..SkyParams::default()
+            };
+            let open: f32 = params
+                .lit
+                .layers
+                .iter()
+                .map(|layer| 1.0 - layer_cover(&params, layer))
+                .product();
+            assert!((1.0 - open - cover).abs() < 1e-6, "{cover}");
+        }
+    }
+
+    #[test]
+    fn the_cut_leaves_the_cover_opaque_enough() {
+        for (cover, steepness, opacity) in [(0.25, 5.0, 1.0), (0.6, 7.0, 1.0), (0.5, 1.7, 0.7)] {
+            // The thinnest place that the cover takes.
+            let thickness = 1.0 - cover - cut(cover, steepness, opacity);
+            let alpha = opacity * smoothstep(0.0, 1.0, steepness * thickness);
+            assert!((alpha - COVERED).abs() < 1e-4, "{alpha}");
+        }
+        assert_eq!(cut(0.0, 9.0, 1.0), 1.0);
+        assert!(cut(1.0, 9.0, 1.0) < -0.3, "an overcast is shut");
+    }
+
+    #[test]
+    fn layers_without_a_share_are_left_out() {
+        let mut params = SkyParams::default();
+        assert_eq!(at(&params, 0.0, DVec3::ZERO).dome[2], 3.0);
+        params.lit = LitParams::with_layers(&[LitLayer::of(LayerKind::Cirrus, 1.0)]);
+        let lit = at(&params, 0.0, DVec3::ZERO);
+        assert_eq!((lit.dome[2], lit.layers[0].sun[3]), (1.0, 2.0));
+        params.cover = 0.0;
+        assert_eq!(at(&params, 0.0, DVec3::ZERO).dome[2], 0.0);
+    }
+
+    /// From offsets in the texture back to metres.
+    fn moved_m(before: &LitUniforms, after: &LitUniforms, index: usize, height_m: f64) -> DVec2 {
+        let (before, after) = (before.layers[index], after.layers[index]);
+        let axes = DMat2::from_cols_array(&before.axes.map(f64::from));
+        let apart = |k: usize| {
+            let d = f64::from(after.place[k] - before.place[k]);
+            d - d.round()
+        };
+        axes.inverse() * DVec2::new(apart(0), apart(1)) * height_m
+    }
+
+    #[test]
+    fn every_layer_moves_by_itself_and_a_walk_moves_them_alike() {
+        let windy = SkyParams {
+            speed: 1.0,
+            ..SkyParams::default()
+        };
+        let start = at(&windy, 0.0, DVec3::ZERO);
+        let later = at(&windy, 10.0, DVec3::ZERO);
+        let walked = at(&windy, 0.0, DVec3::new(300.0, 0.0, -200.0));
+        for (index, layer) in windy.lit.layers.iter().enumerate().take(3) {
+            let height_m = f64::from(windy.lit.radius_m * windy.lit.flattening * layer.height);
+            // What stands over the viewer was upwind before. Offsets are 32-bit floats of tiles of kilometres.
+            let blown = moved_m(&start, &later, index, height_m);
+            let [east, south] = layer.velocity_m_s.map(f64::from);
+            let way = DVec2::new(east, south) * -10.0;
+            assert!((blown - way).length() < 0.02, "{index}: {blown} {way}");
+            let walk = moved_m(&start, &walked, index, height_m);
+            assert!((walk - DVec2::new(300.0, -200.0)).length() < 0.02, "{walk}");
+        }
+        let still = SkyParams {
+            speed: 0.0,
+            ..windy
+        };
+        let (before, after) = (at(&still, 0.0, DVec3::ZERO), at(&still, 60.0, DVec3::ZERO));
+        assert_eq!(before.layers[0].place[..2], after.layers[0].place[..2]);
+        assert_ne!(before.layers[0].place[2..], after.layers[0].place[2..]);
+    }
+
+    #[test]
+    fn the_moon_takes_over_where_the_sun_gives_nothing() {
+        let at = |sin: f32| {
+            let sun_direction = Vec3::new((1.0 - sin * sin).sqrt(), sin, 0.0);
+            let sunlight = Vec3::splat(smoothstep(-0.09, 0.12, sin));
+            luminary(
+                &Light {
+                    sun_direction,
+                    sunlight,
+                    ..LIGHT
+                },
+                1.0,
+            )
+        };
+        assert!(at(-0.05).sun_direction.y < 0.0 && at(-0.05).sunlight.x > 0.0);
+        // At the change both are dark: no step.
+        assert_eq!(at(-0.0999).sunlight, Vec3::ZERO);
+        assert!(at(-0.1001).sunlight.max_element() < 1e-4);
+        let night = at(-0.8);
+        assert!((night.sun_direction.y - 0.8).abs() < 1e-6);
+        assert!((night.sunlight - MOONLIGHT).abs().max_element() < 1e-6);
+    }
+}

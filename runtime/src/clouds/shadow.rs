@@ -1,0 +1,225 @@
+//! Shadows that the clouds of [`crate::Method::Lit`] throw on the ground, for the application's own shaders.
+//!
+//! # Theory
+//! Light from sun or moon comes to a place as far as a viewer who stands there sees them through the clouds: the product of
+//! what the layers leave open, `1 - C_i`, in that one direction. Mukhina and Bezgodov (see [`crate::clouds::lit`]) shade clouds by clouds
+//! with the same coverages (eq. 5); the ground they leave out.
+//!
+//! # Changes versus the paper
+//! - The viewer's dome goes with the viewer. So the shadow of a cloud lies where a viewer has that cloud before the sun, and
+//!   on a plane ground, height 0, all shadows of a layer are as far from their clouds.
+//! - Clouds fade into the haze of the horizon, and their shadows with them: light from below the horizon meets no cloud.
+//! - The sun is a point, its penumbra left out: it would be a texel or two wide.
+//!
+//! # Practice
+//! A texture of 256x256 R8 texels, drawn off screen with two reads a layer and texel. Rows go from north to south, columns from west to
+//! east; the middle of texel (i, j) is at `centre + extent ((i + 0.5) / 256 - 0.5)`, and so on for j. The centre is the viewer's place,
+//! moved to whole texels: as the viewer walks, shadows stay where they are. A level of detail is chosen for the texels.
+//!
+//! ```no_run
+//! # fn f(device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, sky: &mut welkin_runtime::Sky, uniforms: &wgpu::Buffer, layout: &wgpu::BindGroupLayout, sampler: &wgpu::Sampler) {
+//! use welkin_runtime::{Camera, Method, SkyParams, shadow};
+//! // Once: the function joins the shader of the ground, which multiplies its direct light by
+//! // cloud_shadow(shadow_map, linear_clamp_sampler, ground.shadow_area, position.xz)
+//! let ground = format!("{}\n{}", shadow::WGSL, "/* the application's shader */");
+//! # drop(ground);
+//! // Each frame:
+//! let params = SkyParams { method: Method::Lit, shadow_extent_m: 8000.0, ..SkyParams::default() };
+//! sky.prepare(queue, encoder, &params, &Camera::looking(0.0, 0.1, 1.0, [1280, 720]), 12.5);
+//! if let Some(shadow) = sky.shadow() {
+//!     queue.write_buffer(uniforms, 0, bytemuck::bytes_of(&shadow.area()));
+//!     // The texture stays the same from frame to frame, so this group may be kept.
+//!     let view = shadow.texture.create_view(&wgpu::TextureViewDescriptor::default());
+//!     device.create_bind_group(&wgpu::BindGroupDescriptor {
+//!         label: Some("ground"),
+//!         layout,
+//!         entries: &[
+//!             wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) },
+//!             wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(sampler) },
+//!         ],
+//!     });
+//! }
+//! # }
+//! ```
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec2, DVec3};
+
+use crate::clouds::lit::LitUniforms;
+use crate::clouds::shared::CloudView;
+use crate::clouds::{lit, lit_map};
+use crate::device::layouts::Layouts;
+use crate::device::map;
+use crate::geometry::part::Part;
+use crate::params::{MAX_LAYERS, Method, SkyParams};
+
+/// Its part of the shader.
+pub const PART: Part = Part {
+    constants: &[],
+    wgsl: include_str!("shadow.wgsl"),
+};
+
+/// Shadows of the lit method's clouds.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct ShadowUniforms {
+    /// Of each layer, xy: where its dome is seen in the corner of the texture; z: what a texel adds; w: level of detail.
+    pub layers: [[f32; 4]; MAX_LAYERS],
+}
+
+/// Texels a side.
+pub const SIDE: u32 = 256;
+
+/// WGSL of `cloud_shadow(map, map_sampler, area, position_m)`, for the application's shaders: the share of direct light that
+/// the clouds leave at a place on the ground, in metres to the east and to the south of the world's origin.
+pub const WGSL: &str = include_str!("cloud_shadow.wgsl");
+
+/// Width of the square's edge, in which shadows fade, as a share of its side.
+const EDGE: f32 = 0.05;
+
+/// A prepared frame's shadows: see [`crate::Sky::shadow`].
+#[derive(Clone, Copy, Debug)]
+pub struct Shadow<'a> {
+    /// [`SIDE`]x[`SIDE`] texels, `R8Unorm`: 1 where all of the direct light comes through, 0 where none does. It may be
+    /// read by shaders and copied from, and is the same texture in every frame of a sky.
+    pub texture: &'a wgpu::Texture,
+    /// Middle of the square that it covers: metres to the east and to the south of the world's origin.
+    pub centre_m: [f32; 2],
+    /// Side of the square in metres.
+    pub extent_m: f32,
+}
+
+impl Shadow<'_> {
+    /// What `cloud_shadow` of [`WGSL`] wants to know: the middle, the side, and the width of the edge, all in metres.
+    pub fn area(&self) -> [f32; 4] {
+        let [east, south] = self.centre_m;
+        [east, south, self.extent_m, EDGE * self.extent_m]
+    }
+}
+
+/// The square that a frame's shadows cover.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Area {
+    /// Its middle: metres to the east and to the south.
+    pub centre_m: DVec2,
+    /// Its side in metres.
+    pub extent_m: f64,
+}
+
+impl Area {
+    /// The square of a frame, if it has one. `params` are in range, the viewer's place is in metres.
+    pub fn of(params: &SkyParams, place_m: DVec3) -> Option<Area> {
+        let drawn = params.method == Method::Lit && params.shadow_extent_m > 0.0;
+        let place_m = DVec2::new(place_m.x, place_m.z);
+        drawn.then(|| Area::about(place_m, params.shadow_extent_m))
+    }
+
+    /// The square about a place: its middle lies on whole texels.
+    pub fn about(place_m: DVec2, extent_m: f32) -> Area {
+        let extent_m = f64::from(extent_m);
+        let texel_m = extent_m / f64::from(SIDE);
+        Area {
+            centre_m: (place_m / texel_m).round() * texel_m,
+            extent_m,
+        }
+    }
+}
+
+/// The shadows' share of the uniforms, all 0 without any. `params` are in range.
+pub fn uniforms(params: &SkyParams, view: &CloudView, lit: &LitUniforms) -> ShadowUniforms {
+    let mut shadow = ShadowUniforms::default();
+    let Some(area) = Area::of(params, view.place_m) else {
+        return shadow;
+    };
+    let viewer_m = DVec2::new(view.place_m.x, view.place_m.z);
+    let corner_m = area.centre_m - viewer_m - 0.5 * area.extent_m;
+    let texel_m = area.extent_m / f64::from(SIDE);
+    let [east, up, south, _] = lit.towards.map(f64::from);
+    let [f2, rest, ..] = lit.dome.map(f64::from);
+    let plane = DVec2::new(east, south) / (f2 + rest * up * up).sqrt();
+    let layers = lit::drawn(params).zip(&lit.layers);
+    for (seen, ((index, _), own)) in shadow.layers.iter_mut().zip(layers) {
+        let height_m = lit::height_m(params, index);
+        let near = view.distance(height_m);
+        // The layer's axes are for a viewer who stands so near to it; the ground is at height 0.
+        let corner = (plane + corner_m / height_m) / near;
+        let texel = texel_m / (height_m * near);
+        let tiles = texel * f64::from(own.axes[0]).hypot(f64::from(own.axes[1]));
+        let level = (tiles * f64::from(lit_map::SIDE)).log2() - f64::from(own.sun[2]);
+        *seen = [corner.x, corner.y, texel, level].map(|v| v as f32);
+    }
+    shadow
+}
+
+/// The pass on a device.
+#[derive(Debug)]
+pub(crate) struct Pass {
+    texture: wgpu::Texture,
+    view: wgpu::TextureView,
+    pipeline: wgpu::RenderPipeline,
+}
+
+impl Pass {
+    pub fn new(device: &wgpu::Device, module: &wgpu::ShaderModule, layouts: &Layouts) -> Pass {
+        let format = wgpu::TextureFormat::R8Unorm;
+        let texture = map::target(device, "cloud shadows", format, [SIDE, SIDE, 1], 1);
+        Pass {
+            view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
+            pipeline: layouts.off_screen(device, module, "fs_shadow", &layouts.lit, format),
+            texture,
+        }
+    }
+
+    pub fn texture(&self) -> &wgpu::Texture {
+        &self.texture
+    }
+
+    /// Records the pass; `own` is group 1 of the dome.
+    pub fn record(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        shared: &wgpu::BindGroup,
+        own: &wgpu::BindGroup,
+    ) {
+        map::draw(encoder, &self.view, &self.pipeline, [shared, own]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_square_goes_with_the_viewer_by_whole_texels() {
+        let texel_m = 8000.0 / f64::from(SIDE);
+        let mut last = Area::about(DVec2::ZERO, 8000.0).centre_m;
+        for step in 0..1000 {
+            let place = DVec2::new(f64::from(step) * 7.3, -1e5 + f64::from(step) * 3.1);
+            let centre = Area::about(place, 8000.0).centre_m;
+            assert!((centre - place).abs().max_element() <= 0.5 * texel_m + 1e-9);
+            let moved = (centre - last) / texel_m;
+            assert!((moved - moved.round()).abs().max_element() < 1e-6, "{step}");
+            last = centre;
+        }
+    }
+
+    #[test]
+    fn the_applications_function_is_valid() {
+        let use_of_it = "
+            @group(0) @binding(0) var map: texture_2d<f32>;
+            @group(0) @binding(1) var map_sampler: sampler;
+            @group(0) @binding(2) var<uniform> area: vec4f;
+            @fragment fn fs(@location(0) place: vec2f) -> @location(0) vec4f {
+                return vec4f(cloud_shadow(map, map_sampler, area, place));
+            }";
+        let text = format!("{WGSL}{use_of_it}");
+        let module = naga::front::wgsl::parse_str(&text)
+            .unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
+        naga::valid::Validator::new(
+            naga::valid::ValidationFlags::all(),
+            naga::valid::Capabilities::empty(),
+        )
+        .validate(&module)
+        .expect("valid without any extension");
+    }
+}

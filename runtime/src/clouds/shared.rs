@@ -1,0 +1,185 @@
+//! What the clouds of every method share: their light, the sunset tint, the haze, and how the sky is shut.
+//!
+//! # Theory
+//! Roden and Parberry (ACE 2005, section 3.1): the gradient tints the sun's side (lines 26-27), sunlight
+//! lights it all (28). Clouds fade towards the horizon, as haze takes them.
+//!
+//! # Changes versus the paper
+//! - The paper's grey is display-referred; its square is taken as reflected sunlight, itself as skylight.
+//! - Cores are never black: [`CORE`] is what the paper's black becomes.
+//! - Cover above 0.8 shuts the sky: see [`closing`].
+//!
+//! # Practice
+//! No read of its own by day; one bilinear with sunset above 0.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec2, DVec3, Vec2, Vec3};
+
+use crate::clear_sky::light::{Light, luminance};
+use crate::geometry::math::{smoothstep, vec4};
+use crate::geometry::part::{Part, Value};
+use crate::params::SkyParams;
+
+/// Its part of the shader.
+pub const PART: Part = Part {
+    constants: &[("CLOUD_CORE", Value::F32(CORE))],
+    wgsl: include_str!("shared.wgsl"),
+};
+
+/// What the clouds of every method share.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct CloudUniforms {
+    /// xy: unit vector to the sun's azimuth (east, south); zw: `v = z + w * place`.
+    pub gradient: [f32; 4],
+    /// rgb: light of the sun on clouds; w: 1 / sine of the elevation at which clouds are out of the haze.
+    pub sunlight: [f32; 4],
+    /// rgb: light of the sky on clouds.
+    pub ambient: [f32; 4],
+    /// rgb: the sunset colour, display-referred; w: sunset.
+    pub tint: [f32; 4],
+}
+
+/// What the darkest core of a cloud, the paper's black, still scatters: display-referred.
+pub const CORE: f32 = 0.3;
+/// Sine of the elevation at which clouds have come out of the haze of the horizon, and the same of a shut sky.
+const HAZE: [f32; 2] = [0.20, 0.08];
+
+/// Cover from which the sky closes.
+const CLOSING: f32 = 0.8;
+/// Share of sunlight that a shut sky keeps from its own underside.
+pub(crate) const SHADE: f32 = 0.4;
+
+/// Wind at speed 1 in heights of the layer a second: 2.3 degrees a second overhead.
+pub(crate) const MAX_WIND: f64 = 0.04;
+
+/// Height of the lowest clouds over the ground, in metres: cumulus of a fair day. World Meteorological Organization,
+/// "International Cloud Atlas", 2017, gives low clouds 0 to 2 km.
+pub const LOW_HEIGHT_M: f64 = 1000.0;
+
+/// The nearest that a layer comes, in its heights.
+const LEAST_DISTANCE: f64 = 0.05;
+
+/// Display-referred colour of the sunset gradient at its full strength.
+const SUNSET_TINT: Vec3 = Vec3::new(1.0, 0.47, 0.24);
+
+/// What a frame knows beside its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloudView {
+    /// Texels a side of the cloud texture.
+    pub texels: u32,
+    /// A pixel in the middle of the screen, in radians.
+    pub pixel_rad: f32,
+    /// Time in seconds.
+    pub seconds: f64,
+    /// Where the viewer stands: metres to the east, up and to the south.
+    pub place_m: DVec3,
+}
+
+impl CloudView {
+    /// The viewer's place in heights of a layer that floats `height_m` above: what a near layer moves more by.
+    pub(crate) fn place(&self, height_m: f64) -> DVec2 {
+        DVec2::new(self.place_m.x, self.place_m.z) / height_m
+    }
+
+    /// How near a layer that floats `height_m` above the ground is, in its heights: 1 from the ground, less from above it.
+    /// Who climbs to the layer or beyond stays below it.
+    pub(crate) fn distance(&self, height_m: f64) -> f64 {
+        (1.0 - self.place_m.y / height_m).max(LEAST_DISTANCE)
+    }
+
+    /// Level of detail, at distance 1, of a texture with that many texels a height.
+    pub(crate) fn level(&self, texels_a_height: f64) -> f32 {
+        (f64::from(self.pixel_rad) * texels_a_height).log2() as f32
+    }
+}
+
+/// The share of the uniforms that no method changes. `params` are in range.
+pub fn uniforms(params: &SkyParams, light: &Light, texels: u32) -> CloudUniforms {
+    let closing = closing(params.cover);
+    let sun = sun_azimuth(light.sun_direction);
+    let half_texel = 0.5 / texels as f32;
+    CloudUniforms {
+        // Half a texel is kept from the ends: the texture repeats, and its ends are far apart.
+        gradient: [sun.x, sun.y, half_texel, 1.0 - 2.0 * half_texel],
+        sunlight: vec4(
+            light.sunlight * (1.0 - SHADE * closing),
+            1.0 / (HAZE[0] + (HAZE[1] - HAZE[0]) * closing),
+        ),
+        ambient: vec4(ambient(light.skylight), 0.0),
+        tint: vec4(SUNSET_TINT, params.sunset),
+    }
+}
+
+/// Radiance of a cloud of this grey, by the same line as the shader's.
+pub(crate) fn radiance(clouds: &CloudUniforms, grey: f32) -> Vec3 {
+    let [sunlight, ambient] =
+        [clouds.sunlight, clouds.ambient].map(|l| Vec3::new(l[0], l[1], l[2]));
+    let bright = CORE + (1.0 - CORE) * grey;
+    bright * (bright * sunlight + ambient)
+}
+
+/// How far the sky is shut at a cover, 0..1: an overcast has no holes.
+pub fn closing(cover: f32) -> f32 {
+    smoothstep(CLOSING, 1.0, cover)
+}
+
+/// `cloud_soften` of the shader.
+pub(crate) fn softened(alpha: f32, edge: f32) -> f32 {
+    alpha * alpha * (1.0 + edge) / (alpha + edge)
+}
+
+/// Its inverse: the positive root of `(1 + e) a^2 - s a - s e`.
+pub(crate) fn before_softening(softened: f32, edge: f32) -> f32 {
+    let wide = 2.0 * (1.0 + edge);
+    (softened + (softened * softened + 2.0 * wide * softened * edge).sqrt()) / wide
+}
+
+/// Inverse of `smoothstep(0, 1, t)`: the root of the cubic, by angles.
+pub(crate) fn before_smoothstep(value: f32) -> f32 {
+    0.5 - ((1.0 - 2.0 * value).asin() / 3.0).sin()
+}
+
+/// A texture coordinate in 0..1: reduced in 64 bits, since seconds have no end.
+pub(crate) fn offset(place: DVec2) -> [f32; 2] {
+    let fract = place - place.floor();
+    [fract.x as f32, fract.y as f32]
+}
+
+/// Unit vector (east, south) to the sun's azimuth; any one where the sun is at the zenith.
+fn sun_azimuth(sun: Vec3) -> Vec2 {
+    Vec2::new(sun.x, sun.z).normalize_or(Vec2::Y)
+}
+
+/// Skylight on clouds: less blue than the sky, as the ground and other clouds add to it.
+fn ambient(skylight: Vec3) -> Vec3 {
+    Vec3::splat(luminance(skylight)).lerp(skylight, 0.6)
+}
+
+/// The opacity above which a direction counts as covered.
+pub const OPAQUE: f32 = 0.1;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sky_closes_above_cover_0_8_and_loses_light() {
+        let light = Light {
+            sun_direction: Vec3::Y,
+            sunlight: Vec3::ONE,
+            skylight: Vec3::ZERO,
+            night: 0.0,
+        };
+        let sunlight = |cover: f32| {
+            let params = SkyParams {
+                cover,
+                ..SkyParams::default()
+            };
+            uniforms(&params, &light, 512).sunlight[0]
+        };
+        assert_eq!((closing(0.8), closing(1.0)), (0.0, 1.0));
+        assert_eq!((sunlight(0.3), sunlight(0.8)), (1.0, 1.0));
+        assert_eq!(sunlight(1.0), 1.0 - SHADE);
+    }
+}

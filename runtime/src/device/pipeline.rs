@@ -1,0 +1,213 @@
+//! The pipelines: configuration, variants, and the states that put the sky behind a scene.
+
+use super::layouts::vertex_state;
+use crate::device::config::{DepthConfig, SkyConfig};
+use crate::device::layouts::Layouts;
+use crate::geometry::dome::Vertex;
+
+/// What a frame needs beyond the clear sky and one layer of clouds.
+///
+/// By day no star shows, the upper layer is mostly off, and weather is rare. A branch over a uniform would do for a GPU; a
+/// software rasteriser runs both of its sides, and takes twice the time. So each is a pipeline: four, and four that are made when
+/// a frame first has weather.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Variant {
+    /// Stars and galaxy.
+    pub night: bool,
+    /// The thin upper layer.
+    pub upper_layer: bool,
+    /// Haze of rain, or a flash.
+    pub weather: bool,
+}
+
+impl Variant {
+    /// Every variant with weather or without, at its [`Variant::index`].
+    pub fn all(weather: bool) -> [Variant; 4] {
+        [0, 1, 2, 3].map(|index| Variant {
+            night: index & 1 > 0,
+            upper_layer: index & 2 > 0,
+            weather,
+        })
+    }
+
+    /// Place in [`Variant::all`].
+    pub fn index(self) -> usize {
+        usize::from(self.night) + 2 * usize::from(self.upper_layer)
+    }
+
+    /// The shader's overridable constants.
+    fn constants(self) -> [(&'static str, f64); 3] {
+        let number = |on: bool| f64::from(u8::from(on));
+        [
+            ("NIGHT", number(self.night)),
+            ("UPPER_LAYER", number(self.upper_layer)),
+            ("WEATHER", number(self.weather)),
+        ]
+    }
+}
+
+/// Builds a pipeline for each of these variants, for the triangle over the screen or for the dome's mesh.
+pub(crate) fn pipelines(
+    device: &wgpu::Device,
+    config: &SkyConfig,
+    module: &wgpu::ShaderModule,
+    layouts: &Layouts,
+    own: Option<&wgpu::BindGroupLayout>,
+    dome_mesh: bool,
+    variants: [Variant; 4],
+) -> [wgpu::RenderPipeline; 4] {
+    let layout = layouts.pipeline_layout(device, own);
+    let vertices = [Some(wgpu::VertexBufferLayout {
+        array_stride: size_of::<Vertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x3],
+    })];
+    let (entry, buffers, primitive) = if dome_mesh {
+        (
+            "vs_dome",
+            &vertices[..],
+            wgpu::PrimitiveState {
+                topology: wgpu::PrimitiveTopology::TriangleStrip,
+                strip_index_format: Some(wgpu::IndexFormat::Uint16),
+                ..Default::default()
+            },
+        )
+    } else {
+        ("vs_screen", &[][..], wgpu::PrimitiveState::default())
+    };
+    variants.map(|variant| {
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("sky"),
+            layout: Some(&layout),
+            vertex: vertex_state(module, entry, buffers),
+            primitive,
+            depth_stencil: config.depth.map(depth_state),
+            multisample: multisample_state(config),
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some("fs_sky"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &variant.constants(),
+                    ..Default::default()
+                },
+                targets: &[Some(config.target_format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    })
+}
+
+/// What is drawn over the sky and the scene before it. Opacity of the target stays as it is.
+pub(crate) struct Overlay {
+    /// Of the vertex and the fragment shader.
+    pub entries: [&'static str; 2],
+    pub topology: wgpu::PrimitiveTopology,
+    /// What is left of the colour behind.
+    pub behind: wgpu::BlendFactor,
+}
+
+impl Overlay {
+    /// The flare is added by its own opacity (`glBlendFunc(GL_SRC_ALPHA, GL_ONE)`).
+    pub const FLARE: Overlay = Overlay {
+        entries: ["vs_flare", "fs_flare"],
+        topology: wgpu::PrimitiveTopology::TriangleStrip,
+        behind: wgpu::BlendFactor::One,
+    };
+    /// Rays lie over what is behind them: a triangle over the screen.
+    pub const RAYS: Overlay = Overlay::over(["vs_screen", "fs_rays"]);
+    /// And so does rain: two triangles a drop.
+    pub const RAIN: Overlay = Overlay::over(["vs_rain", "fs_rain"]);
+
+    const fn over(entries: [&'static str; 2]) -> Overlay {
+        Overlay {
+            entries,
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            behind: wgpu::BlendFactor::OneMinusSrcAlpha,
+        }
+    }
+}
+
+/// The pipeline of an overlay; `own` is the layout of its group 1, if it has one.
+pub(crate) fn overlay_pipeline(
+    device: &wgpu::Device,
+    config: &SkyConfig,
+    module: &wgpu::ShaderModule,
+    layouts: &Layouts,
+    own: Option<&wgpu::BindGroupLayout>,
+    overlay: &Overlay,
+) -> wgpu::RenderPipeline {
+    let layout = layouts.pipeline_layout(device, own);
+    let component = |src_factor, dst_factor| wgpu::BlendComponent {
+        src_factor,
+        dst_factor,
+        operation: wgpu::BlendOperation::Add,
+    };
+    let blend = wgpu::BlendState {
+        color: component(wgpu::BlendFactor::SrcAlpha, overlay.behind),
+        alpha: component(wgpu::BlendFactor::Zero, wgpu::BlendFactor::One),
+    };
+    let [vertex, fragment] = overlay.entries;
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(fragment),
+        layout: Some(&layout),
+        vertex: vertex_state(module, vertex, &[]),
+        primitive: wgpu::PrimitiveState {
+            topology: overlay.topology,
+            ..Default::default()
+        },
+        depth_stencil: config.depth.map(|depth| wgpu::DepthStencilState {
+            depth_compare: Some(wgpu::CompareFunction::Always),
+            ..depth_state(depth)
+        }),
+        multisample: multisample_state(config),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(fragment),
+            compilation_options: Default::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: config.target_format,
+                blend: Some(blend),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+pub(crate) fn multisample_state(config: &SkyConfig) -> wgpu::MultisampleState {
+    wgpu::MultisampleState {
+        count: config.sample_count,
+        ..Default::default()
+    }
+}
+
+/// The sky lies exactly at the far plane: what was cleared to it and nothing nearer lets it through.
+pub(crate) fn depth_state(depth: DepthConfig) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: depth.format,
+        depth_write_enabled: Some(false),
+        depth_compare: Some(if depth.reversed {
+            wgpu::CompareFunction::GreaterEqual
+        } else {
+            wgpu::CompareFunction::LessEqual
+        }),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_variant_stands_at_its_index() {
+        for weather in [false, true] {
+            for (index, variant) in Variant::all(weather).into_iter().enumerate() {
+                assert_eq!((variant.index(), variant.weather), (index, weather));
+            }
+        }
+    }
+}

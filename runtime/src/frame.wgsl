@@ -1,0 +1,44 @@
+// Everything that is constant over a frame. Each member's struct lives in the file of its pass;
+// the Rust file beside it holds the same struct, and a test compares the two layouts.
+struct Uniforms {
+    camera: CameraUniforms,
+    sky: SkyUniforms,
+    perez: PerezUniforms,
+    sun: SunUniforms,
+    stars: StarUniforms,
+    galaxy: GalaxyUniforms,
+    skybox: SkyboxUniforms,
+    clouds: CloudUniforms,
+    packed: PackedUniforms,
+    octaves: OctaveUniforms,
+    fbm: FbmUniforms,
+    lit: LitUniforms,
+    sprites: SpriteUniforms,
+    shadow: ShadowUniforms,
+    lightning: LightningUniforms,
+    rays: RayUniforms,
+    rain: RainUniforms,
+    flares: FlareUniforms,
+    tonemap: TonemapUniforms,
+}
+
+// What a frame needs is compiled in, since some devices run both sides of a branch (device/pipeline.rs).
+override NIGHT: bool = true;
+override UPPER_LAYER: bool = true;
+override WEATHER: bool = true;
+
+@group(0) @binding(0) var<uniform> uniforms: Uniforms;
+@group(0) @binding(1) var repeat_sampler: sampler;
+@group(0) @binding(2) var clamp_sampler: sampler;
+@group(0) @binding(3) var clouds_texture: texture_2d<f32>;
+@group(0) @binding(4) var stars_texture: texture_2d<f32>;
+@group(0) @binding(5) var galaxy_texture: texture_2d<f32>;
+@group(0) @binding(6) var sky_texture: texture_2d<f32>;
+@group(0) @binding(7) var sun_texture: texture_2d<f32>;
+@group(0) @binding(8) var flares_texture: texture_2d<f32>;
+@group(0) @binding(9) var skybox_texture: texture_cube<f32>;
+
+// What a method adds: to the dome its map; to an off-screen pass the texture that it reads.
+@group(1) @binding(0) var map_texture: texture_2d<f32>;
+@group(1) @binding(1) var layers_texture: texture_2d_array<f32>;
+@group(1) @binding(2) var lit_map_texture: texture_2d_array<f32>;

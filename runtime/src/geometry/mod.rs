@@ -1,0 +1,6 @@
+//! Where pixels look, where they meet the dome, and what shader parts are made of.
+
+pub mod camera;
+pub mod dome;
+pub mod math;
+pub mod part;

@@ -1,0 +1,336 @@
+//! The parts of the shader, in the order in which they are joined.
+
+use crate::clear_sky::{flares, galaxy, gradient, light, perez, skybox, stars, sun};
+use crate::clouds::{
+    fbm, fbm_map, fbm_pack, lit, lit_map, octaves, octaves_map, packed, shadow, shared,
+};
+use crate::device::map;
+use crate::geometry::part::Part;
+use crate::geometry::{camera, dome};
+use crate::sprites::{pipelines, ring};
+use crate::weather::{lightning, rain, rays};
+use crate::{frame, tonemap};
+
+/// Every part.
+pub const PARTS: [Part; 29] = [
+    frame::PART,
+    camera::PART,
+    dome::PART,
+    light::PART,
+    perez::PART,
+    gradient::PART,
+    sun::PART,
+    stars::PART,
+    galaxy::PART,
+    skybox::PART,
+    shared::PART,
+    packed::PART,
+    octaves::PART,
+    octaves_map::PART,
+    fbm::PART,
+    fbm_map::PART,
+    fbm_pack::PART,
+    lit::PART,
+    lit_map::PART,
+    shadow::PART,
+    pipelines::PART,
+    ring::PART,
+    lightning::PART,
+    map::PART,
+    rays::PART,
+    rain::PART,
+    flares::PART,
+    tonemap::PART,
+    SKY,
+];
+
+/// What a pixel of the sky is put together from.
+const SKY: Part = Part {
+    constants: &[],
+    wgsl: include_str!("sky.wgsl"),
+};
+
+#[cfg(test)]
+mod tests {
+    use std::mem::{offset_of, size_of};
+
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+    use naga::{Module, TypeInner};
+
+    use super::*;
+
+    use crate::clear_sky::flares::FlareUniforms;
+    use crate::clear_sky::galaxy::GalaxyUniforms;
+    use crate::clear_sky::gradient::SkyUniforms;
+    use crate::clear_sky::perez::PerezUniforms;
+    use crate::clear_sky::skybox::SkyboxUniforms;
+    use crate::clear_sky::stars::StarUniforms;
+    use crate::clear_sky::sun::SunUniforms;
+    use crate::clouds::fbm::FbmUniforms;
+    use crate::clouds::lit::{LitLayerUniforms, LitUniforms};
+    use crate::clouds::octaves::{OctaveDome, OctaveUniforms};
+    use crate::clouds::packed::PackedUniforms;
+    use crate::clouds::shadow::ShadowUniforms;
+    use crate::clouds::shared::CloudUniforms;
+    use crate::device::config::Output;
+    use crate::device::shader::{Build, compose};
+    use crate::frame::Uniforms;
+    use crate::geometry::camera::CameraUniforms;
+    use crate::params::{Method, SkyModel};
+    use crate::sprites::SpriteUniforms;
+    use crate::sprites::pipelines::SpriteBlock;
+    use crate::sprites::ring::{RingSet, RingUniforms, SpriteView};
+    use crate::tonemap::TonemapUniforms;
+    use crate::weather::lightning::LightningUniforms;
+    use crate::weather::rain::RainUniforms;
+    use crate::weather::rays::RayUniforms;
+
+    fn parse(build: Build) -> Module {
+        let text = compose(build, &PARTS);
+        naga::front::wgsl::parse_str(&text)
+            .unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)))
+    }
+
+    fn builds() -> Vec<Build> {
+        let mut builds = Vec::new();
+        for output in Output::ALL {
+            for method in Method::ALL {
+                for (reversed_depth, sky, skybox) in [
+                    (false, SkyModel::Gradient, false),
+                    (true, SkyModel::Perez, true),
+                ] {
+                    builds.push(Build {
+                        output,
+                        reversed_depth,
+                        method,
+                        sky,
+                        skybox,
+                    });
+                }
+            }
+        }
+        builds
+    }
+
+    #[test]
+    fn every_build_is_valid_without_any_extension() {
+        for build in builds() {
+            let module = parse(build);
+            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+            validator
+                .validate(&module)
+                .unwrap_or_else(|e| panic!("{build:?}: {e:?}"));
+            let entries: Vec<_> = module
+                .entry_points
+                .iter()
+                .map(|e| e.name.as_str())
+                .collect();
+            let passes = [
+                "fs_octaves_map",
+                "fs_fbm_map",
+                "fs_fbm_pack",
+                "fs_lit_map",
+                "fs_lit_level",
+                "vs_sprite",
+                "vs_ring_sprite",
+                "fs_sprite",
+                "vs_ring",
+                "fs_ring",
+                "fs_shadow",
+                "vs_map",
+                "fs_level",
+            ];
+            let rays = ["fs_rays_mask", "fs_rays_sum", "fs_rays_streaks", "fs_rays"];
+            let sky = [
+                ["vs_screen", "vs_dome"].as_slice(),
+                &passes,
+                &rays,
+                &["vs_rain", "fs_rain", "vs_flare", "fs_flare", "fs_sky"],
+            ];
+            assert_eq!(entries, sky.concat());
+        }
+    }
+
+    #[test]
+    fn every_entry_point_translates_to_webgl2() {
+        use naga::back::{PipelineConstants, glsl, pipeline_constants::process_overrides};
+        use naga::proc::BoundsCheckPolicies;
+
+        let webgl2 = glsl::Options {
+            version: glsl::Version::Embedded {
+                version: 300,
+                is_webgl: true,
+            },
+            ..Default::default()
+        };
+        for build in builds() {
+            let module = parse(build);
+            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+            let info = validator.validate(&module).expect("valid");
+            for entry in &module.entry_points {
+                let named = Some((entry.stage, entry.name.as_str()));
+                let constants = PipelineConstants::default();
+                let (module, info) = process_overrides(&module, &info, named, &constants)
+                    .expect("overrides have defaults");
+                let options = glsl::PipelineOptions {
+                    shader_stage: entry.stage,
+                    entry_point: entry.name.clone(),
+                    multiview: None,
+                };
+                let mut text = String::new();
+                let policies = BoundsCheckPolicies::default();
+                glsl::Writer::new(&mut text, &module, &info, &webgl2, &options, policies)
+                    .and_then(|mut writer| writer.write())
+                    .unwrap_or_else(|e| panic!("{build:?} {}: {e}", entry.name));
+            }
+        }
+    }
+
+    /// Offsets and size of a WGSL struct.
+    fn layout(module: &Module, name: &str) -> (Vec<(String, u32)>, u32) {
+        let (_, ty) = module
+            .types
+            .iter()
+            .find(|(_, t)| t.name.as_deref() == Some(name))
+            .expect(name);
+        let TypeInner::Struct { members, span } = &ty.inner else {
+            panic!("{name} is no struct")
+        };
+        (
+            members
+                .iter()
+                .map(|m| (m.name.clone().unwrap_or_default(), m.offset))
+                .collect(),
+            *span,
+        )
+    }
+
+    macro_rules! assert_same_layout {
+        ($module:expr, $name:ident, $($field:ident),+) => {
+            let rust = vec![$((stringify!($field).to_string(), offset_of!($name, $field) as u32)),+];
+            assert_eq!(layout($module, stringify!($name)), (rust, size_of::<$name>() as u32), stringify!($name));
+        };
+    }
+
+    #[test]
+    fn rust_and_wgsl_agree_on_the_layout_of_every_struct() {
+        let module = &parse(builds()[0]);
+        assert_same_layout!(
+            module,
+            CameraUniforms,
+            right,
+            up,
+            forward,
+            clip_x,
+            clip_y,
+            clip_w
+        );
+        assert_same_layout!(
+            module,
+            SkyUniforms,
+            gradient,
+            sun,
+            wide,
+            narrow,
+            band,
+            overcast
+        );
+        assert_same_layout!(module, PerezUniforms, sun, a, b, c, d, e, base, zenith);
+        assert_same_layout!(module, SunUniforms, right, up, disc, glow, towards);
+        assert_same_layout!(module, StarUniforms, field, spread);
+        assert_same_layout!(module, GalaxyUniforms, light, grain);
+        assert_same_layout!(module, SkyboxUniforms, mix);
+        assert_same_layout!(module, CloudUniforms, gradient, sunlight, ambient, tint);
+        assert_same_layout!(
+            module,
+            PackedUniforms,
+            photo,
+            noise,
+            detail,
+            upper,
+            levels,
+            shape
+        );
+        assert_same_layout!(module, OctaveDome, axes, place);
+        assert_same_layout!(
+            module,
+            OctaveUniforms,
+            low,
+            middle,
+            high,
+            shape,
+            sun,
+            cells_a,
+            cells_b,
+            map
+        );
+        assert_same_layout!(
+            module,
+            FbmUniforms,
+            axes,
+            place,
+            remap,
+            lit,
+            shaded,
+            step,
+            offsets_a,
+            offsets_b,
+            offsets_c,
+            offsets_d,
+            weights_a,
+            weights_b
+        );
+        assert_same_layout!(module, LitLayerUniforms, axes, place, shape, sun, facing);
+        assert_same_layout!(
+            module,
+            LitUniforms,
+            dome,
+            light,
+            towards,
+            source,
+            ambient,
+            layers
+        );
+        assert_same_layout!(
+            module,
+            SpriteUniforms,
+            sun,
+            colour,
+            ambient,
+            air,
+            fade,
+            flash,
+            flash_place
+        );
+        assert_same_layout!(module, SpriteView, clip_x, clip_y, clip_z, clip_w, viewer);
+        assert_same_layout!(module, SpriteBlock, origin, slot);
+        assert_same_layout!(module, RingSet, place, span);
+        assert_same_layout!(module, RingUniforms, used, next, walls, sides);
+        assert_same_layout!(module, ShadowUniforms, layers);
+        assert_same_layout!(module, LightningUniforms, place, light);
+        assert_same_layout!(module, RayUniforms, sun, right, up, bright, dark);
+        assert_same_layout!(
+            module,
+            RainUniforms,
+            right,
+            up,
+            forward,
+            sight,
+            streak,
+            haze,
+            places,
+            sizes
+        );
+        assert_same_layout!(module, FlareUniforms, light, places, colours, cells);
+        assert_same_layout!(module, TonemapUniforms, display);
+        assert_same_layout!(
+            module, Uniforms, camera, sky, perez, sun, stars, galaxy, skybox, clouds, packed,
+            octaves, fbm, lit, sprites, shadow, lightning, rays, rain, flares, tonemap
+        );
+        assert_eq!(
+            size_of::<Uniforms>() % 16,
+            0,
+            "WebGL2 wants uniform blocks in units of 16 bytes"
+        );
+    }
+}

@@ -1,0 +1,229 @@
+//! Clouds in space, made of sprites, that one can fly through.
+//!
+//! # Theory
+//! N. Wang, "Let There Be Clouds! Fast, Realistic Cloud-Rendering in Microsoft Flight Simulator 2004: A Century of Flight", Game
+//! Developer, 2004. A cloud is 5 to 400 textured squares that face the camera, blended back to front. A vertex has the sum of an
+//! ambient colour, from five levels over the cloud's height and the time of day, and a directional one: the sun's most colour
+//! times a share between a least and a most one, by the cosine between the way from the middle of the vertex's shading group and the
+//! sun. Texture colour is added. The parts are files: [`hours`] (light over the day), [`formation`], [`instances`] (what the
+//! device reads), [`grid`] (blocks), [`order`] (sorting), [`locks`] (in the cloud), [`ring`] (impostors).
+//!
+//! # Changes versus the paper
+//! - The sheet's grey is relief about one half: it is added in proportion to the light, or clouds would glow at night.
+//! - Air: clouds go over into the clear sky behind them with distance, and out at the end of sight.
+//! - Moonlight by night: the directional colour of the night's hours comes from the moon, opposite the sun.
+//! - Density makes clouds more opaque and bases darker, height lifts the whole field, sunset tints the sun's colour as
+//!   in every method.
+//!
+//! # Practice
+//! A draw for each block of 16 square kilometres in sight, 64 bytes a sprite, eight vertices for near sprites and four for far ones.
+//! Sprites are drawn over the sky of another method, its dome ([`crate::SpriteParams::behind`]), in the target's own encoding: a float target
+//! blends radiance, another one display light. They stand at their depth: a scene drawn before hides them, and
+//! what is drawn later should test depth against the scene alone, since sprites write none. It wants a target that can be blended with.
+
+mod device;
+pub mod formation;
+pub(crate) mod frame;
+pub mod grid;
+pub mod hours;
+pub mod instances;
+pub mod locks;
+pub mod order;
+pub mod outline;
+pub(crate) mod pass;
+pub mod pipelines;
+pub mod ring;
+pub mod scene;
+pub mod wind;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec3, Vec3};
+use welkin_pack::Field;
+use welkin_pack::field::Hour;
+
+use self::wind::lift_m;
+use crate::clear_sky::light::{Light, luminary};
+use crate::clouds::shared;
+use crate::clouds::shared::{CloudView, LOW_HEIGHT_M};
+use crate::geometry::math::{smoothstep, vec4};
+use crate::params::SkyParams;
+use crate::weather::lightning::LightningUniforms;
+
+/// Clouds of sprites: see sprites.wgsl for what each component holds.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct SpriteUniforms {
+    /// xyz: unit direction towards sun or moon; w: contrast of the sheet's relief.
+    pub sun: [f32; 4],
+    /// rgb: the most light of sun or moon; w: share of it where a group faces away.
+    pub colour: [f32; 4],
+    /// rgb: factor on the colour levels; w: share of `colour` where a group faces sun or moon.
+    pub ambient: [f32; 4],
+    /// x: extinction at sea level; y: 1 / scale height; z: opacity; w: how much darker bases are.
+    pub air: [f32; 4],
+    /// x: 1 / width of the rim of sight; y: its end; z: 1 / width of the change to billboards; w: its end.
+    pub fade: [f32; 4],
+    /// rgb: light of a flash where it strikes.
+    pub flash: [f32; 4],
+    /// xyz: from the viewer to the flash; w: 1 / its reach.
+    pub flash_place: [f32; 4],
+}
+
+/// Extinction of clear air at sea level, 1 / m, and the height over which it falls to 1 / e, in metres. Visibility by
+/// Koschmieder's rule is 3.912 over it: 71 km, a clear day. H. Koschmieder, "Theorie der horizontalen Sichtweite", 1924. Haze has a
+/// scale height of 1 to 2 km.
+const EXTINCTION: f32 = 5.5e-5;
+const AIR_HEIGHT_M: f32 = 1500.0;
+/// Share of sight over which clouds go out.
+const RIM: f32 = 0.45;
+/// Clouds are opaque up to the last 1 / this of the rim: many of them lie over each other, so opacity alone would end in an edge.
+pub const RIM_OPAQUE: f32 = 4.0;
+/// Share of the way to the billboards over which sprites change to them.
+const CHANGE: f32 = 0.15;
+/// Opacity of sprites at density 0 and 1, and how much darker than its colour level a base is then.
+const OPACITY: [f32; 2] = [0.85, 1.0];
+const DARK_BASE: [f32; 2] = [0.0, 0.5];
+/// How strong the relief of the sheet shows at density 0 and 1.
+const RELIEF: [f32; 2] = [1.15, 0.8];
+/// Sine of the sun's elevation at which moon and sun change places, and over which both are dim.
+const MOON: [f32; 2] = [-0.10, 0.04];
+/// Height over the lowest clouds at which a flash strikes, in metres, and how far its light reaches.
+const FLASH_ABOVE_M: f64 = 700.0;
+const FLASH_REACH_M: f32 = 1800.0;
+
+/// The method's share of the uniforms. `params` are in range; `hours` is the pack's table of light.
+pub fn uniforms(
+    params: &SkyParams,
+    view: &CloudView,
+    light: &Light,
+    hours: &[Hour],
+    flash: &LightningUniforms,
+) -> SpriteUniforms {
+    let own = &params.sprites;
+    let hour = hours::at(hours, params.time);
+    let luminary = luminary(light, 1.0);
+    let change = smoothstep(0.0, MOON[1], (light.sun_direction.y - MOON[0]).abs());
+    let mix = |[from, to]: [f32; 2]| from + (to - from) * params.density;
+    let shut = 1.0 - shared::SHADE * shared::closing(params.cover);
+    let billboards = own.billboards_beyond_m;
+    let [x, y, z] = [
+        f64::from(params.weather.lightning.place_m[0]),
+        LOW_HEIGHT_M + FLASH_ABOVE_M + lift_m(params),
+        f64::from(params.weather.lightning.place_m[1]),
+    ];
+    let flash_place = DVec3::new(x, y, z) - view.place_m;
+    let rgb = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
+    SpriteUniforms {
+        sun: vec4(luminary.sun_direction, mix(RELIEF)),
+        colour: vec4(Vec3::from(hour.colour) * (change * shut), hour.least),
+        ambient: vec4(Vec3::splat(hour.ambient), hour.most),
+        air: [EXTINCTION, 1.0 / AIR_HEIGHT_M, mix(OPACITY), mix(DARK_BASE)],
+        fade: [
+            1.0 / (RIM * own.distance_m),
+            own.distance_m,
+            1.0 / (CHANGE * billboards),
+            billboards,
+        ],
+        flash: vec4(rgb(flash.light), 0.0),
+        flash_place: vec4(flash_place.as_vec3(), 1.0 / FLASH_REACH_M),
+    }
+}
+
+/// The lowest base and the highest top of a field's clouds, in metres; 0 if it has none.
+pub fn heights_m(field: &Field) -> [f32; 2] {
+    let ends = field.clouds.iter().map(|cloud| {
+        let (middle, half) = (cloud.centre_m[1], 0.5 * cloud.size_m[1]);
+        [middle - half, middle + half]
+    });
+    let both = ends.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
+    both.unwrap_or_default()
+}
+
+/// How far the sky behind is shut: from below by cover, as in every method; from above the clouds it is open.
+pub fn closing(params: &SkyParams, viewer_m: f32, [base_m, top_m]: [f32; 2]) -> f32 {
+    let height_m = viewer_m - lift_m(params) as f32;
+    let above = smoothstep(base_m, top_m.max(base_m + 1.0), height_m);
+    shared::closing(params.cover) * (1.0 - above)
+}
+
+/// Mean radiance of a sky that the field's clouds have shut.
+pub fn overcast(sprites: &SpriteUniforms) -> Vec3 {
+    let rgb = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
+    let middle = 0.5 * (sprites.colour[3] + sprites.ambient[3]);
+    OVERCAST_LEVEL * rgb(sprites.ambient) * (1.0 - 0.5 * sprites.air[3])
+        + UNDERSIDE * middle * rgb(sprites.colour)
+}
+
+/// Colour level of the base of a sheet of clouds.
+const OVERCAST_LEVEL: f32 = 0.5;
+/// Share of directional light on undersides, as they are seen from the ground.
+const UNDERSIDE: f32 = 0.35;
+
+#[cfg(test)]
+mod tests {
+    use super::wind::in_field;
+    use super::*;
+
+    #[test]
+    fn the_wind_blows_the_field_and_height_lifts_it() {
+        let params = SkyParams {
+            speed: 1.0,
+            height: 0.7,
+            ..SkyParams::default()
+        };
+        let place = in_field(&params, DVec3::new(100.0, 50.0, -20.0), 10.0);
+        assert!((place - DVec3::new(100.0 - 320.0, 50.0, -20.0 - 240.0)).length() < 1e-3);
+        let high = SkyParams {
+            height: 1.0,
+            ..params
+        };
+        assert!((lift_m(&high) - 300.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn an_overcast_shuts_the_sky_from_below_and_not_from_above() {
+        let shut = SkyParams {
+            cover: 1.0,
+            ..SkyParams::default()
+        };
+        let at = |height: f32| closing(&shut, height, [1000.0, 1800.0]);
+        assert_eq!(
+            [at(2.0), at(1000.0), at(1800.0), at(9000.0)],
+            [1.0, 1.0, 0.0, 0.0]
+        );
+        assert!((at(1400.0) - 0.5).abs() < 1e-6);
+        let fair = SkyParams { cover: 0.5, ..shut };
+        assert_eq!(closing(&fair, 2.0, [1000.0, 1800.0]), 0.0);
+    }
+
+    #[test]
+    fn sun_and_moon_change_places_in_the_dark() {
+        let hours = [Hour {
+            time: 0.5,
+            ambient: 0.5,
+            colour: [1.0; 3],
+            least: 0.1,
+            most: 1.0,
+        }];
+        let at = |sine: f32| {
+            let light = Light {
+                sun_direction: Vec3::new((1.0 - sine * sine).sqrt(), sine, 0.0),
+                sunlight: Vec3::ONE,
+                skylight: Vec3::ONE,
+                night: 0.0,
+            };
+            let view = CloudView {
+                texels: 512,
+                pixel_rad: 1e-3,
+                seconds: 0.0,
+                place_m: DVec3::ZERO,
+            };
+            let none = LightningUniforms::default();
+            uniforms(&SkyParams::default(), &view, &light, &hours, &none)
+        };
+        assert_eq!(at(0.5).colour[0], 1.0);
+        assert!(at(-0.0999).colour[0] < 1e-3 && at(-0.1001).colour[0] < 1e-3);
+        assert!(at(-0.0999).sun[0] > 0.9 && at(-0.1001).sun[0] < -0.9);
+        assert_eq!(at(-0.4).colour[0], 1.0);
+    }
+}
