@@ -9,6 +9,8 @@ VIEW := target/release/welkin-view
 PACK := packs/default
 SKYBOX_PACK := packs/skybox
 FRAME := --size 1280x720
+# The window is a feature, for pictures need none of what it needs.
+WINDOW := --features welkin-viewer/window
 
 # What `make recipes` bakes.
 RECIPES := 20000
@@ -69,7 +71,7 @@ sky: gpu-tools ## Bake the default pack, check it, and draw pictures of every me
 	@echo "pictures are in out/, the packs are in packs/"
 
 view: gpu-tools window-tools ## Open a window with sliders on the default pack
-	$(CARGO) build --release --locked -p welkin-baker -p welkin-viewer
+	$(CARGO) build --release --locked -p welkin-baker -p welkin-viewer $(WINDOW)
 	[ -f $(PACK)/pack.json ] || $(WELKIN) bake -o $(PACK)
 	$(VIEW) $(PACK)
 
@@ -131,17 +133,17 @@ web: web-tools ## Build the page with the sky in WebAssembly into out/web/, for 
 
 test: gpu-tools window-tools desktop-tools node-tools ## Run every test, and formatting, lints and docs without a warning
 	$(CARGO) fmt --all --check
-	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
-	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
+	$(CARGO) clippy --workspace --all-targets $(WINDOW) --locked -- -D warnings
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps $(WINDOW) --locked
 	$(CARGO) build --release --locked -p welkin-baker
-	WELKIN_RELEASE=$(CURDIR)/$(WELKIN) $(CARGO) test --workspace --locked -- --include-ignored
+	WELKIN_RELEASE=$(CURDIR)/$(WELKIN) $(CARGO) test --workspace $(WINDOW) --locked -- --include-ignored
 	$(CARGO) test --release --locked -p welkin-baker --test legal --test sound
 	if $(CARGO) tree --locked -e normal,build -p welkin-baker | grep -q ' wgpu '; then echo "the baker must not need wgpu"; exit 1; fi
 	$(MAKE) web-test
 
 # The viewer is compiled as for the other tests, after which there is nothing to do.
 web-test: web gpu-tools browser ## Test the page: its bakes, and its pictures in headless Chromium
-	$(CARGO) build --workspace --all-targets --locked
+	$(CARGO) build --workspace --all-targets $(WINDOW) --locked
 	cd web && WELKIN_VIEW=$(CURDIR)/target/debug/welkin-view node --test --test-concurrency=1 test/*.test.mjs
 
 recipes: ## Bake RECIPES random recipes and the default one with SEEDS seeds, and check them all
@@ -149,7 +151,7 @@ recipes: ## Bake RECIPES random recipes and the default one with SEEDS seeds, an
 
 check: ## Compile and lint, without running anything
 	$(CARGO) fmt --all --check
-	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
+	$(CARGO) clippy --workspace --all-targets $(WINDOW) --locked -- -D warnings
 
 bench: gpu-tools ## Measure the bake, and the GPU milliseconds of a frame of each method
 	$(CARGO) build --release --locked -p welkin-baker -p welkin-viewer

@@ -8,6 +8,7 @@ mod cli;
 mod interrupt;
 mod render;
 mod told;
+#[cfg(feature = "window")]
 mod window;
 
 use std::io::Write;
@@ -22,7 +23,12 @@ fn main() -> ExitCode {
     let done = match cli.command {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
+        #[cfg(feature = "window")]
         None => window::run(&cli.window),
+        #[cfg(not(feature = "window"))]
+        None => Err(anyhow::anyhow!(
+            "this welkin-view was built without its window; use `render` or `bench`, or build it with `--features window`"
+        )),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
