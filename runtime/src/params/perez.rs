@@ -21,7 +21,7 @@ pub const CUSTOM: [[f32; 2]; 5] = [
     [0.0, 2.0],
 ];
 
-/// Where the numbers a to e of [`SkyModel::Perez`]'s luminance come from.
+/// Where the numbers a to e of [`crate::SkyModel::Perez`]'s luminance come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum PerezShape {
     /// From the turbidity: A. J. Preetham, P. Shirley, B. Smits, SIGGRAPH 1999.
@@ -33,7 +33,7 @@ pub enum PerezShape {
     Custom([f32; 5]),
 }
 
-/// What [`SkyModel::Perez`] alone knows.
+/// What [`crate::SkyModel::Perez`] alone knows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PerezParams {
     /// How luminance is distributed.
