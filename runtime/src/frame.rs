@@ -2,36 +2,31 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::clear_sky::flares::FlareUniforms;
-use crate::clear_sky::galaxy::GalaxyUniforms;
-use crate::clear_sky::gradient::SkyUniforms;
+use crate::clear_sky::flares::{self, FlareUniforms};
+use crate::clear_sky::galaxy::{self, GalaxyUniforms};
+use crate::clear_sky::gradient::{self, SkyUniforms};
 use crate::clear_sky::light::{Light, luminary};
-use crate::clear_sky::perez::PerezUniforms;
-use crate::clear_sky::skybox::SkyboxUniforms;
-use crate::clear_sky::stars::StarUniforms;
-use crate::clear_sky::sun::SunUniforms;
-use crate::clear_sky::{flares, galaxy, gradient, perez, skybox, stars, sun};
-use crate::clouds::fbm::FbmUniforms;
-use crate::clouds::lit::LitUniforms;
-use crate::clouds::octaves::OctaveUniforms;
-use crate::clouds::packed::PackedUniforms;
-use crate::clouds::shadow::ShadowUniforms;
-use crate::clouds::shared::{CloudUniforms, CloudView};
-use crate::clouds::{fbm, lit, octaves, packed, shadow, shared};
+use crate::clear_sky::perez::{self, PerezUniforms};
+use crate::clear_sky::skybox::{self, SkyboxUniforms};
+use crate::clear_sky::stars::{self, StarUniforms};
+use crate::clear_sky::sun::{self, SunUniforms};
+use crate::clouds::fbm::{self, FbmUniforms};
+use crate::clouds::lit::{self, LitUniforms};
+use crate::clouds::octaves::{self, OctaveUniforms};
+use crate::clouds::packed::{self, PackedUniforms};
+use crate::clouds::shadow::{self, ShadowUniforms};
+use crate::clouds::shared::{self, CloudUniforms, CloudView};
 use crate::device::pipeline::Variant;
-use crate::geometry::camera;
-use crate::geometry::camera::{Camera, CameraUniforms};
+use crate::geometry::camera::{self, Camera, CameraUniforms};
 use crate::geometry::math::{finite, vec4};
 use crate::geometry::part::Part;
 use crate::pack_data::PackData;
 use crate::params::{Method, SkyParams};
-use crate::sprites::SpriteUniforms;
-use crate::tonemap::TonemapUniforms;
-use crate::weather::lightning::LightningUniforms;
-use crate::weather::rain::RainUniforms;
-use crate::weather::rays::RayUniforms;
-use crate::weather::{lightning, rain, rays};
-use crate::{sprites, tonemap};
+use crate::sprites::{self, SpriteUniforms};
+use crate::tonemap::{self, TonemapUniforms};
+use crate::weather::lightning::{self, LightningUniforms};
+use crate::weather::rain::{self, RainUniforms};
+use crate::weather::rays::{self, RayUniforms};
 
 /// The uniforms and what else the passes share.
 pub const PART: Part = Part {

@@ -10,8 +10,7 @@ use welkin_pack::{Field, Pack, Role};
 use wgpu::util::DeviceExt;
 
 use crate::clear_sky::flares;
-use crate::clouds::shadow;
-use crate::clouds::shadow::Shadow;
+use crate::clouds::shadow::{self, Shadow};
 use crate::device::common::Common;
 use crate::device::config::{SkyConfig, output, step};
 use crate::device::layouts::Layouts;
@@ -245,11 +244,12 @@ impl Sky {
         let mut uniforms = self.pack_data.uniforms(&whole, camera, seconds, self.step);
         self.fit_sprites(&whole);
         let seconds = finite(seconds);
-        let look = uniforms.sprites;
+        let (screen, look) = (uniforms.camera, uniforms.sprites);
         let frame = sprites::frame::Frame {
             params: &whole,
             camera,
             seconds,
+            screen: &screen,
             look: &look,
         };
         let shown = self

@@ -19,10 +19,10 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat2, DVec2, Vec3};
 
-use crate::clouds::fbm_map::Octaves;
+use crate::clouds::fbm_map::{self, Octaves};
+use crate::clouds::fbm_pack;
 use crate::clouds::octaves_map::{NORMAL_BEND, NORMAL_SLOPE};
 use crate::clouds::shared::{CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, closing, offset};
-use crate::clouds::{fbm_map, fbm_pack};
 use crate::geometry::math::vec4;
 use crate::geometry::part::{Part, Value};
 use crate::params::SkyParams;

@@ -22,8 +22,7 @@ use welkin_pack::Texture;
 
 use crate::clouds::fbm_pack;
 use crate::device::layouts::Layouts;
-use crate::device::map;
-use crate::device::map::Map;
+use crate::device::map::{self, Map};
 use crate::geometry::part::{Part, Value};
 
 /// Its part of the shader.

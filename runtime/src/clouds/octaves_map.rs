@@ -25,8 +25,7 @@
 use half::f16;
 
 use crate::device::layouts::{Layouts, array_layers};
-use crate::device::map;
-use crate::device::map::Map;
+use crate::device::map::{self, Map};
 use crate::geometry::math::mix;
 use crate::geometry::part::{Part, Value};
 use crate::params::{MAX_OCTAVES, SkyParams};

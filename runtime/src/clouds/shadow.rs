@@ -46,9 +46,9 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
 
-use crate::clouds::lit::LitUniforms;
+use crate::clouds::lit::{self, LitUniforms};
+use crate::clouds::lit_map;
 use crate::clouds::shared::CloudView;
-use crate::clouds::{lit, lit_map};
 use crate::device::layouts::Layouts;
 use crate::device::map;
 use crate::geometry::part::Part;

@@ -29,12 +29,12 @@ mod histogram;
 
 use welkin_pack::{Pack, Role};
 
-use crate::clouds::fbm::FbmUniforms;
+use crate::clouds::fbm::{self, FbmUniforms};
+use crate::clouds::fbm_map;
 use crate::clouds::lit::{LitLayerUniforms, LitUniforms};
-use crate::clouds::octaves::{OctaveDome, OctaveUniforms};
-use crate::clouds::packed::PackedUniforms;
+use crate::clouds::octaves::{self, OctaveDome, OctaveUniforms};
+use crate::clouds::packed::{self, PackedUniforms};
 use crate::clouds::shared::{OPAQUE, before_smoothstep, before_softening, softened};
-use crate::clouds::{fbm, fbm_map, octaves, packed};
 use crate::error::{SkyError, texture};
 use crate::frame::Uniforms;
 use crate::geometry::camera::Camera;

@@ -4,10 +4,9 @@ use wgpu::util::DeviceExt;
 
 use super::instances::{A_ROW, Instance};
 use super::outline;
-use super::pipelines::{GroupLayouts, STRIDE, one_of};
+use super::pipelines::{GroupLayouts, STRIDE, SpriteBlock, one_of};
+use super::ring::SpriteView;
 use super::scene::{AMOUNTS_SIDE, Draw, Scene};
-use crate::sprites::pipelines::SpriteBlock;
-use crate::sprites::ring::SpriteView;
 
 /// The uniforms of blocks, one after another.
 #[derive(Debug)]

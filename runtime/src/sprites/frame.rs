@@ -2,13 +2,12 @@
 
 use glam::{DVec3, Vec3};
 
-use super::ring::Station;
+use super::SpriteUniforms;
+use super::ring::{SpriteView, Station};
 use super::wind::in_field;
 use crate::device::config::DepthConfig;
-use crate::geometry::camera::{self, Camera};
+use crate::geometry::camera::{Camera, CameraUniforms};
 use crate::params::SkyParams;
-use crate::sprites::SpriteUniforms;
-use crate::sprites::ring::SpriteView;
 
 /// What a frame is drawn from.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +18,8 @@ pub(crate) struct Frame<'a> {
     pub camera: &'a Camera,
     /// Finite.
     pub seconds: f64,
+    /// The screen's share of the uniforms.
+    pub screen: &'a CameraUniforms,
     /// What the sprites look like.
     pub look: &'a SpriteUniforms,
 }
@@ -65,7 +66,7 @@ pub fn screen_view(
     frame: &Frame<'_>,
     sheet: &wgpu::Texture,
 ) -> SpriteView {
-    let camera = camera::uniforms(frame.camera);
+    let screen = frame.screen;
     let [slope, start] = match (depth, frame.camera.clip_z) {
         // Nothing is tested: half way between near and far is never cut off.
         (None, _) => [0.5, 0.0],
@@ -73,15 +74,15 @@ pub fn screen_view(
         (Some(depth), None) if depth.reversed => [0.0, NEAR_M],
         (Some(_), None) => [1.0, -NEAR_M],
     };
-    let [x, y, z, _] = camera.clip_w;
+    let [x, y, z, _] = screen.clip_w;
     let height = frame.camera.position_m().y;
     let [pixel_width, pixel_height] = frame.camera.pixel_rad();
     let pixel = pixel_width.max(pixel_height);
     SpriteView {
-        clip_x: camera.clip_x,
-        clip_y: camera.clip_y,
+        clip_x: screen.clip_x,
+        clip_y: screen.clip_y,
         clip_z: [slope * x, slope * y, slope * z, start],
-        clip_w: camera.clip_w,
+        clip_w: screen.clip_w,
         viewer: [height, pixel, cell_texels(sheet), 0.0],
     }
 }

@@ -43,8 +43,7 @@ use welkin_pack::field::Hour;
 
 use self::wind::lift_m;
 use crate::clear_sky::light::{Light, luminary};
-use crate::clouds::shared;
-use crate::clouds::shared::{CloudView, LOW_HEIGHT_M};
+use crate::clouds::shared::{self, CloudView, LOW_HEIGHT_M};
 use crate::geometry::math::{smoothstep, vec4};
 use crate::params::SkyParams;
 use crate::weather::lightning::LightningUniforms;

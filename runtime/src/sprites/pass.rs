@@ -13,12 +13,11 @@ use super::grid::{BlockId, around, slots_a_side};
 use super::instances::{A_ROW, Instance};
 use super::outline::{self, Outline};
 use super::pipelines::{GroupLayouts, Pipelines, STRIDE, one_of, pictures};
-use super::ring::{self, Ring, Station, Step};
+use super::ring::{self, Ring, RingUniforms, SpriteView, Station, Step};
 use super::scene::{AMOUNTS_SIDE, Draw, Scene, planes};
 use super::wind::lift_m;
 use crate::device::common::Common;
 use crate::params::{Method, SkyModel};
-use crate::sprites::ring::{RingUniforms, SpriteView};
 
 /// Views of a frame: the screen's and the ring's pictures'.
 const VIEWS: u64 = 1 + ring::PICTURES as u64;

@@ -4,14 +4,14 @@ use bytemuck::{Pod, Zeroable};
 use welkin_pack::SheetCell;
 
 use super::outline::Outline;
-use super::{formation, instances, locks, ring};
+use super::ring::{self, RingUniforms, SpriteView};
+use super::{formation, instances, locks};
 use crate::device::common::Common;
 use crate::device::config::Output;
 use crate::device::layouts::{entry, texture, vertex_state};
 use crate::device::map::target;
 use crate::device::pipeline::{depth_state, multisample_state};
 use crate::geometry::part::{Part, Value};
-use crate::sprites::ring::{RingUniforms, SpriteView};
 
 /// Bytes from one view or block to the next: what every device takes as an offset.
 pub const STRIDE: u64 = 256;
