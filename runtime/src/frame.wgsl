@@ -25,7 +25,6 @@ struct Uniforms {
 // What a frame needs is compiled in, since some devices run both sides of a branch (device/pipeline.rs).
 override NIGHT: bool = true;
 override UPPER_LAYER: bool = true;
-override WEATHER: bool = true;
 
 @group(0) @binding(0) var<uniform> uniforms: Uniforms;
 @group(0) @binding(1) var repeat_sampler: sampler;

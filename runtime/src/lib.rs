@@ -25,29 +25,47 @@
 //! # Ok(()) }
 //! ```
 
-pub mod clear_sky;
-pub mod clouds;
-pub mod device;
-pub mod error;
-pub mod frame;
-pub mod geometry;
-pub mod oktas;
-pub mod pack_data;
-pub mod params;
-pub mod parts;
-mod program;
-pub mod sky;
-pub mod sprites;
-pub mod tonemap;
-pub mod weather;
+/// What the crate is made of, floor by floor, for its own tests: no part of what it promises.
+#[doc(hidden)]
+#[path = "."]
+pub mod internals {
+    pub mod clear_sky;
+    pub mod clouds;
+    pub mod device;
+    pub mod error;
+    pub(crate) mod evaluate;
+    pub mod frame;
+    pub mod geometry;
+    pub(crate) mod methods;
+    pub mod oktas;
+    pub mod pack_data;
+    pub mod params;
+    pub mod parts;
+    pub(crate) mod program;
+    pub mod sky;
+    #[cfg(feature = "sprites")]
+    pub mod sprites;
+    pub mod tonemap;
+    #[cfg(feature = "weather")]
+    pub mod weather;
+}
 
-pub use clouds::shadow::Shadow;
-pub use device::config::{DepthConfig, SkyConfig};
-pub use error::SkyError;
-pub use geometry::camera::Camera;
-pub use oktas::Oktas;
-pub use params::{
-    FbmParams, Lightning, LitLayer, LitParams, Method, OctaveParams, ParamError, PerezParams,
-    PerezShape, SkyModel, SkyParams, SpriteParams, WeatherParams,
+pub use glam;
+pub use wgpu;
+
+#[cfg(feature = "lit")]
+pub use internals::clouds::lit::shadow;
+pub use internals::device::config::{DepthConfig, SkyConfig};
+pub use internals::error::SkyError;
+pub use internals::geometry::camera::Camera;
+pub use internals::oktas::Oktas;
+pub use internals::params::{self, Method, SkyParams};
+pub use internals::sky::Sky;
+
+#[cfg(feature = "sprites")]
+pub(crate) use internals::sprites;
+#[cfg(feature = "weather")]
+pub(crate) use internals::weather;
+pub(crate) use internals::{
+    clear_sky, clouds, device, error, frame, geometry, methods, pack_data, parts, program, tonemap,
 };
-pub use sky::Sky;

@@ -3,8 +3,8 @@
 use welkin_pack::field::Hour;
 use welkin_pack::{Image, Pack, Role, StarTexel, Texture};
 
-use crate::clouds::fbm_map::Octaves;
-use crate::clouds::octaves_map;
+use crate::clouds::fbm::map::Octaves;
+use crate::clouds::octaves;
 use crate::error::{SkyError, texture};
 use crate::geometry::math::finite;
 use crate::params::SkyParams;
@@ -68,10 +68,10 @@ impl PackData {
         })
     }
 
-    /// The states of the octaves method's noise at a moment: see [`octaves_map::states`].
+    /// The states of the octaves method's noise at a moment: see [`octaves::map::states`].
     pub fn octave_states(&self, params: &SkyParams, seconds: f64) -> Vec<f32> {
         let seconds = finite(seconds);
-        octaves_map::states(&self.noise, self.seed, &params.clamped(), seconds)
+        octaves::map::states(&self.noise, self.seed, &params.clamped(), seconds)
     }
 }
 

@@ -1,48 +1,78 @@
 //! The parts of the shader, in the order in which they are joined.
 
-use crate::clear_sky::{flares, galaxy, gradient, light, perez, skybox, stars, sun};
-use crate::clouds::{
-    fbm, fbm_map, fbm_pack, lit, lit_map, octaves, octaves_map, packed, shadow, shared,
-};
+#[cfg(feature = "perez")]
+use crate::clear_sky::perez;
+use crate::clear_sky::{flares, galaxy, gradient, light, skybox, stars, sun};
+use crate::clouds::shared;
+use crate::device::common::Dome;
 use crate::device::map;
-use crate::geometry::part::Part;
+use crate::device::shader::{Build, compose};
+use crate::geometry::part::{Part, Value};
 use crate::geometry::{camera, dome};
-use crate::sprites::{pipelines, ring};
-use crate::weather::{lightning, rain, rays};
+#[cfg(feature = "perez")]
+use crate::params::SkyModel;
+#[cfg(feature = "weather")]
+use crate::weather::{self, lightning, rain, rays};
 use crate::{frame, tonemap};
 
-/// Every part.
-pub const PARTS: [Part; 29] = [
+/// What every dome needs.
+const COMMON: [Part; 14] = [
     frame::PART,
     camera::PART,
     dome::PART,
     light::PART,
-    perez::PART,
     gradient::PART,
     sun::PART,
     stars::PART,
     galaxy::PART,
     skybox::PART,
     shared::PART,
-    packed::PART,
-    octaves::PART,
-    octaves_map::PART,
-    fbm::PART,
-    fbm_map::PART,
-    fbm_pack::PART,
-    lit::PART,
-    lit_map::PART,
-    pipelines::PART,
-    ring::PART,
-    shadow::PART,
-    lightning::PART,
     map::PART,
-    rays::PART,
-    rain::PART,
     flares::PART,
     tonemap::PART,
     SKY,
 ];
+
+/// What a dome with weather needs.
+#[cfg(feature = "weather")]
+const WEATHER: &[Part] = &[lightning::PART, rays::PART, rain::PART, weather::PART];
+
+/// The text of the shader of a dome: the parts that it needs, and no other.
+pub fn text(build: Build, dome: Dome) -> String {
+    let clouds = dome.method.clouds();
+    let ask_opaque = clouds.is_often_opaque();
+    let mut parts: Vec<&Part> = COMMON.iter().chain(clouds.parts()).collect();
+    #[cfg(feature = "perez")]
+    if dome.sky == SkyModel::Perez {
+        parts.push(&perez::PART);
+    }
+    let mut weather = "radiance";
+    #[cfg(feature = "weather")]
+    if dome.weather {
+        parts.extend(WEATHER);
+        weather = "weather_over(radiance, direction, clouds)";
+    }
+    let (method, sky) = (dome.method.name(), dome.sky.name());
+    let calls = [
+        // Radiance and opacity of the clouds along a unit direction above the horizon, for a pixel that is so much narrower than one in
+        // the middle of the screen.
+        (
+            "cloud_layer(direction: vec3f, narrowing: f32) -> vec4f",
+            format!("{method}_layer(direction, narrowing)"),
+        ),
+        (
+            "clear_sky_light(direction: vec3f) -> vec3f",
+            format!("{sky}_light(direction)"),
+        ),
+        // Radiance of a pixel with what weather adds to it; its clouds are known.
+        (
+            "weather(radiance: vec3f, direction: vec3f, clouds: vec4f) -> vec3f",
+            weather.to_string(),
+        ),
+    ];
+    let own = [("ASK_OPAQUE", Value::Bool(ask_opaque))];
+    compose(build, &own, parts.into_iter(), &calls)
+}
 
 /// What a pixel of the sky is put together from.
 const SKY: Part = Part {
@@ -67,13 +97,12 @@ mod tests {
     use crate::clear_sky::stars::StarUniforms;
     use crate::clear_sky::sun::SunUniforms;
     use crate::clouds::fbm::FbmUniforms;
+    use crate::clouds::lit::shadow::ShadowUniforms;
     use crate::clouds::lit::{LitLayerUniforms, LitUniforms};
     use crate::clouds::octaves::{OctaveDome, OctaveUniforms};
     use crate::clouds::packed::PackedUniforms;
-    use crate::clouds::shadow::ShadowUniforms;
     use crate::clouds::shared::CloudUniforms;
     use crate::device::config::Output;
-    use crate::device::shader::{Build, compose};
     use crate::frame::Uniforms;
     use crate::geometry::camera::CameraUniforms;
     use crate::params::{Method, SkyModel};
@@ -85,69 +114,90 @@ mod tests {
     use crate::weather::rain::RainUniforms;
     use crate::weather::rays::RayUniforms;
 
-    fn parse(build: Build) -> Module {
-        let text = compose(build, &PARTS);
+    fn parse((build, dome): (Build, Dome)) -> Module {
+        let text = text(build, dome);
         naga::front::wgsl::parse_str(&text)
             .unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)))
     }
 
-    fn builds() -> Vec<Build> {
+    fn builds() -> Vec<(Build, Dome)> {
         let mut builds = Vec::new();
         for output in Output::ALL {
             for method in Method::ALL {
-                for (reversed_depth, sky, skybox) in [
-                    (false, SkyModel::Gradient, false),
-                    (true, SkyModel::Perez, true),
-                ] {
-                    builds.push(Build {
-                        output,
-                        reversed_depth,
-                        method,
-                        sky,
-                        skybox,
-                    });
+                for (reversed_depth, skybox, weather) in [(false, false, false), (true, true, true)]
+                {
+                    for sky in SkyModel::ALL {
+                        let build = Build {
+                            output,
+                            reversed_depth,
+                            skybox,
+                        };
+                        let dome = Dome {
+                            method,
+                            sky,
+                            weather,
+                        };
+                        builds.push((build, dome));
+                    }
                 }
             }
         }
         builds
     }
 
+    /// The entry points that only a method has.
+    fn own_entries(method: Method) -> &'static [&'static str] {
+        match method.name() {
+            "octaves" => &["fs_octaves_map"],
+            "fbm" => &["fs_fbm_map", "fs_fbm_pack"],
+            "lit" => &["fs_lit_map", "fs_lit_level", "fs_shadow"],
+            "sprites" => &[
+                "vs_sprite",
+                "vs_ring_sprite",
+                "fs_sprite",
+                "vs_ring",
+                "fs_ring",
+            ],
+            _ => &[],
+        }
+    }
+
     #[test]
-    fn every_build_is_valid_without_any_extension() {
+    fn every_build_is_valid_without_any_extension_and_has_what_it_needs() {
         for build in builds() {
             let module = parse(build);
             let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
             validator
                 .validate(&module)
                 .unwrap_or_else(|e| panic!("{build:?}: {e:?}"));
-            let entries: Vec<_> = module
+            let mut entries: Vec<_> = module
                 .entry_points
                 .iter()
                 .map(|e| e.name.as_str())
                 .collect();
-            let passes = [
-                "fs_octaves_map",
-                "fs_fbm_map",
-                "fs_fbm_pack",
-                "fs_lit_map",
-                "fs_lit_level",
-                "vs_sprite",
-                "vs_ring_sprite",
-                "fs_sprite",
-                "vs_ring",
-                "fs_ring",
-                "fs_shadow",
+            let common = [
+                "vs_screen",
+                "vs_dome",
                 "vs_map",
                 "fs_level",
+                "vs_flare",
+                "fs_flare",
+                "fs_sky",
             ];
-            let rays = ["fs_rays_mask", "fs_rays_sum", "fs_rays_streaks", "fs_rays"];
-            let sky = [
-                ["vs_screen", "vs_dome"].as_slice(),
-                &passes,
-                &rays,
-                &["vs_rain", "fs_rain", "vs_flare", "fs_flare", "fs_sky"],
+            let weather = [
+                "fs_rays_mask",
+                "fs_rays_sum",
+                "fs_rays_streaks",
+                "fs_rays",
+                "vs_rain",
+                "fs_rain",
             ];
-            assert_eq!(entries, sky.concat());
+            let has_weather = cfg!(feature = "weather") && build.1.weather;
+            let weather = if has_weather { &weather[..] } else { &[] };
+            let mut expected = [&common, own_entries(build.1.method), weather].concat();
+            entries.sort_unstable();
+            expected.sort_unstable();
+            assert_eq!(entries, expected, "{build:?}");
         }
     }
 

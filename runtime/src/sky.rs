@@ -5,30 +5,32 @@
 //! and its map, is made when that method is first prepared or [`Sky::load`]ed, and kept. Draw after the opaque scene:
 //! pixels that the scene covers then cost nothing.
 
-use glam::Vec3;
-use welkin_pack::{Field, Pack, Role};
+use welkin_pack::{Pack, Role};
 use wgpu::util::DeviceExt;
 
 use crate::clear_sky::flares;
-use crate::clouds::shadow::{self, Shadow};
+#[cfg(feature = "lit")]
+use crate::clouds::lit::shadow::{self, Shadow};
 use crate::device::common::Common;
 use crate::device::config::{SkyConfig, output, step};
 use crate::device::layouts::Layouts;
 use crate::device::pipeline::Variant;
 use crate::device::shader::Build;
 use crate::device::upload::{shared_group, upload};
-use crate::error::{SkyError, texture};
+use crate::error::SkyError;
 use crate::frame::Uniforms;
 use crate::geometry::camera::Camera;
 use crate::geometry::dome;
 use crate::geometry::math::finite;
+use crate::methods::MapFrame;
 use crate::pack_data::PackData;
-use crate::params::{DEFAULT_OCTAVES, Method, SkyModel, SkyParams};
-use crate::parts::PARTS;
-use crate::program::{OwnMap, Program};
-use crate::sprites;
-use crate::sprites::outline::{Outline, outlines};
-use crate::weather::rain;
+use crate::params::{Method, SkyModel, SkyParams};
+use crate::parts;
+use crate::program::Program;
+#[cfg(feature = "sprites")]
+use crate::sprites::{self, layer::SpriteLayer};
+#[cfg(feature = "weather")]
+use crate::weather::overlays::{self, Shown};
 
 /// A sky on a device.
 #[derive(Debug)]
@@ -42,9 +44,8 @@ pub struct Sky {
     step: f32,
     dome: Option<DomeBuffers>,
     programs: [Option<Program>; Method::ALL.len()],
-    field: Option<Field>,
-    outlines: Vec<Outline>,
-    sprites: Option<Box<sprites::pass::Pass>>,
+    #[cfg(feature = "sprites")]
+    sprites: SpriteLayer,
     prepared: Option<Prepared>,
 }
 
@@ -54,12 +55,11 @@ struct Prepared {
     method: Method,
     sky: SkyModel,
     variant: Variant,
-    rays: bool,
-    /// Vertices of the rain, 0 without.
-    rain: u32,
     flare: bool,
+    #[cfg(feature = "weather")]
+    weather: Shown,
+    #[cfg(feature = "lit")]
     shadow: Option<shadow::Area>,
-    sprites: bool,
 }
 
 /// The dome's mesh on the device.
@@ -111,8 +111,6 @@ impl Sky {
         let build = Build {
             output: output(&config, features)?,
             reversed_depth: config.depth.is_some_and(|d| d.reversed),
-            method: Method::Packed,
-            sky: SkyModel::Gradient,
             skybox: pack_data.skybox.is_some(),
         };
         let layouts = Layouts::new(device, size_of::<Uniforms>() as u64);
@@ -128,11 +126,16 @@ impl Sky {
                 levels.iter().map(|level| level.len() as u64).sum()
             })
         };
+        let mut own = [const { None }; Method::ALL.len()];
+        for method in Method::ALL {
+            let clouds = method.clouds();
+            if clouds.uploads() {
+                own[method as usize] = Some(upload(device, queue, pack, clouds.role())?);
+            }
+        }
         let usable = config.target_format.guaranteed_format_features(features);
         let common = Common {
-            fbm: upload(device, queue, pack, Role::Fbm)?,
-            layers: upload(device, queue, pack, Role::Layers)?,
-            sheet: upload(device, queue, pack, Role::Sprites)?,
+            own,
             mesh: dome_step_deg.is_some(),
             blends: usable
                 .flags
@@ -140,25 +143,17 @@ impl Sky {
             device: device.clone(),
             config,
             build,
-            parts: &PARTS,
+            compose: parts::text,
             layouts,
         };
         Ok(Sky {
             shared: shared_group(device, queue, pack, &common.layouts, &buffer)?,
-            pack_bytes: [
-                Role::Clouds,
-                Role::Octaves,
-                Role::Fbm,
-                Role::Layers,
-                Role::Sprites,
-            ]
-            .map(bytes),
+            pack_bytes: Method::ALL.map(|method| bytes(method.clouds().role())),
             step: step(config.target_format),
             dome: dome_step_deg.map(|step| dome_buffers(device, step)),
             programs: [const { None }; Method::ALL.len()],
-            field: pack.field().cloned(),
-            outlines: outlines(texture(pack, Role::Sprites)?),
-            sprites: None,
+            #[cfg(feature = "sprites")]
+            sprites: SpriteLayer::new(pack)?,
             prepared: None,
             common,
             buffer,
@@ -169,30 +164,14 @@ impl Sky {
     /// Compiles the shader of a method with a sky model and makes the method's map, so that their first frame need not.
     /// For [`Method::Sprites`] that is what draws the sprites over a clear dome.
     pub fn load(&mut self, method: Method, sky: SkyModel) {
-        let octaves = DEFAULT_OCTAVES;
         let params = SkyParams {
             method,
             sky,
             ..SkyParams::default()
         };
-        self.fit_sprites(&params);
-        let dome = params.dome().method;
-        fitting(&mut self.programs, &self.common, dome, sky, octaves);
-    }
-
-    /// Makes what draws sprites, if the parameters want them and pack and target allow them.
-    fn fit_sprites(&mut self, params: &SkyParams) -> Option<&mut sprites::pass::Pass> {
-        let field = self.field.as_ref()?;
-        if params.method != Method::Sprites || !self.common.blends {
-            return None;
-        }
-        let (common, outlines) = (&self.common, &self.outlines);
-        let distance_m = params.sprites.distance_m;
-        let pass = self.sprites.get_or_insert_with(|| {
-            sprites::pass::Pass::new(common, field, outlines, distance_m).into()
-        });
-        pass.load(common, params.sky);
-        Some(pass)
+        #[cfg(feature = "sprites")]
+        self.sprites.fit(&self.common, &params);
+        fitting(&mut self.programs, &self.common, &params.dome());
     }
 
     /// Whether the pack has what a method draws from.
@@ -200,30 +179,31 @@ impl Sky {
     /// # Errors
     /// [`SkyError::MissingField`] for [`Method::Sprites`] with a pack that has no clouds in space: it then draws the dome alone.
     pub fn supports(&self, method: Method) -> Result<(), SkyError> {
-        if method == Method::Sprites && self.field.is_none() {
+        #[cfg(feature = "sprites")]
+        if method == Method::Sprites && !self.sprites.has_field() {
             return Err(SkyError::MissingField);
         }
+        let _ = method;
         Ok(())
     }
 
     /// Forgets what [`Method::Sprites`] keeps of earlier frames, its ring of impostors and the facing of sprites near the viewer: the next
     /// frame is drawn as a new sky would draw it. No other method keeps anything.
     pub fn forget(&mut self) {
-        if let Some(pass) = &mut self.sprites {
-            pass.forget();
-        }
+        #[cfg(feature = "sprites")]
+        self.sprites.forget();
     }
 
     /// Sprites that the prepared frame draws: on the screen, and into the ring of impostors.
+    #[cfg(feature = "sprites")]
     pub fn sprites_drawn(&self) -> [u64; 2] {
-        let shows = self.prepared.is_some_and(|prepared| prepared.sprites);
-        let pass = self.sprites.as_ref().filter(|_| shows);
-        pass.map_or([0; 2], |pass| pass.drawn())
+        self.sprites.drawn()
     }
 
     /// Bytes of the ring of impostors: 2 MiB, and 4 MiB while it changes.
+    #[cfg(feature = "sprites")]
     pub fn ring_bytes(&self) -> u64 {
-        self.sprites.as_ref().map_or(0, |pass| pass.ring_bytes())
+        self.sprites.ring_bytes()
     }
 
     /// Computes a frame: writes its uniforms and records the off-screen passes of its method into `encoder`, before the
@@ -242,75 +222,54 @@ impl Sky {
         let whole = params.clamped();
         let params = whole.dome();
         let mut uniforms = self.pack_data.uniforms(&whole, camera, seconds, self.step);
-        self.fit_sprites(&whole);
         let seconds = finite(seconds);
-        let (screen, look) = (uniforms.camera, uniforms.sprites);
-        let frame = sprites::frame::Frame {
-            params: &whole,
-            camera,
-            seconds,
-            screen: &screen,
-            look: &look,
-        };
-        let shown = self
-            .sprites
-            .as_mut()
-            .filter(|_| whole.method == Method::Sprites);
-        let sprites = shown.is_some();
-        if let Some(pass) = shown {
-            pass.record(&self.common, queue, encoder, &self.shared, &frame);
+        #[cfg(feature = "sprites")]
+        {
+            let (screen, look) = (uniforms.camera, uniforms.sprites);
+            let frame = sprites::frame::Frame {
+                params: &whole,
+                camera,
+                seconds,
+                screen: &screen,
+                look: &look,
+            };
+            self.sprites
+                .record(&self.common, queue, encoder, &self.shared, &frame);
             if uniforms.flares.light[0] > 0.0 {
-                let sun = Vec3::from_slice(&uniforms.sky.sun);
-                uniforms.flares.light[0] *= pass.clear_towards_sun(&frame, sun);
+                let sun = glam::Vec3::from_slice(&uniforms.sky.sun);
+                uniforms.flares.light[0] *= self.sprites.clear_towards_sun(&frame, sun);
             }
         }
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&uniforms));
-        let states = match params.method {
-            Method::Octaves => self.pack_data.octave_states(&params, seconds),
-            _ => Vec::new(),
-        };
-        let program = fitting(
-            &mut self.programs,
-            &self.common,
-            params.method,
-            params.sky,
-            params.octaves.count,
-        );
-        match &mut program.map {
-            OwnMap::None => {}
-            OwnMap::Octaves(pass) => pass.record(queue, encoder, &self.shared, &states),
-            OwnMap::Fbm(pass) => {
-                let [x, y, ..] = uniforms.fbm.step;
-                pass.record(encoder, &self.shared, [x, y]);
-            }
-            OwnMap::Lit(pass) => pass.record(encoder, &self.shared, uniforms.lit.dome[2] as usize),
-        }
-        let shadow = shadow::Area::of(&params, camera.position_m().as_dvec3());
-        if shadow.is_some() {
-            program.record_shadow(&self.common, encoder, &self.shared);
-        }
-        let rays = uniforms.rays.sun[3] > 0.0;
-        let rain = rain::vertices(&uniforms.rain);
-        if rays {
-            program.record_rays(&self.common, encoder, &self.shared);
+        let program = fitting(&mut self.programs, &self.common, &params);
+        if let Some(map) = &mut program.map {
+            let frame = MapFrame {
+                params: &params,
+                seconds,
+                uniforms: &uniforms,
+                pack: &self.pack_data,
+            };
+            map.record(queue, encoder, &self.shared, &frame);
         }
         let variant = Variant::of(&uniforms);
+        #[cfg(feature = "weather")]
+        let weather = overlays::shown(&uniforms.rays, &uniforms.rain);
+        #[cfg(feature = "weather")]
+        program.record_weather(&self.common, weather, encoder, &self.shared);
         // A flash that is told is made ready for before it begins.
+        #[cfg(feature = "weather")]
         if variant.weather || params.weather.lightning.strength > 0.0 {
             program.fit_sky(&self.common, params.sky, true);
-        }
-        if rain > 0 {
-            program.fit_rain(&self.common);
         }
         self.prepared = Some(Prepared {
             method: params.method,
             sky: params.sky,
             variant,
-            rays,
-            rain,
             flare: uniforms.flares.light[0] > 0.0,
-            shadow,
-            sprites,
+            #[cfg(feature = "weather")]
+            weather,
+            #[cfg(feature = "lit")]
+            shadow: shadow::Area::of(&params, camera.position_m().as_dvec3()),
         });
     }
 
@@ -325,8 +284,8 @@ impl Sky {
             return;
         };
         pass.set_bind_group(0, &self.shared, &[]);
-        if let Some(group) = program.map.group() {
-            pass.set_bind_group(1, group, &[]);
+        if let Some(map) = &program.map {
+            pass.set_bind_group(1, map.group(), &[]);
         }
         pass.set_pipeline(pipeline);
         match &self.dome {
@@ -338,22 +297,14 @@ impl Sky {
             }
         }
         // What lies over the sky, from the farthest to the nearest.
-        if let Some(sprites) = self.sprites.as_ref().filter(|_| prepared.sprites) {
-            sprites.draw(pass, prepared.sky);
-        }
-        if let Some(rays) = program.rays.as_ref().filter(|_| prepared.rays) {
-            pass.set_pipeline(&rays.overlay);
-            pass.set_bind_group(1, rays.group(), &[]);
-            pass.draw(0..3, 0..1);
-        }
-        if let Some(rain) = program.rain.as_ref().filter(|_| prepared.rain > 0) {
-            pass.set_pipeline(rain);
-            pass.draw(0..prepared.rain, 0..1);
-        }
+        #[cfg(feature = "sprites")]
+        self.sprites.draw(pass, prepared.sky);
+        #[cfg(feature = "weather")]
+        program.weather.draw(pass, prepared.weather);
         if let Some(flare) = program.flare.as_ref().filter(|_| prepared.flare) {
             pass.set_pipeline(flare);
-            if let Some(group) = program.map.group() {
-                pass.set_bind_group(1, group, &[]);
+            if let Some(map) = &program.map {
+                pass.set_bind_group(1, map.group(), &[]);
             }
             pass.draw(0..4, 0..flares::COUNT);
         }
@@ -362,20 +313,21 @@ impl Sky {
     /// The cloud map of the prepared frame, if its method draws one: it tiles, and level 0 is as fine as it gets.
     ///
     /// Its red channel is the amount of cloud ([`Method::Octaves`], before cover) or the shade ([`Method::Fbm`], with
-    /// the cover in alpha). That of [`Method::Lit`] is an array, a layer each (see [`crate::clouds::lit_map`]); its last one is empty.
+    /// the cover in alpha). That of [`Method::Lit`] is an array, a layer each (see [`crate::clouds::lit::map`]); its last one is empty.
     pub fn cloud_map(&self) -> Option<&wgpu::Texture> {
         let (_, program) = self.current()?;
-        program.map.texture()
+        program.map.as_ref().map(|map| map.texture())
     }
 
-    /// The shadows that the clouds of the prepared frame throw on the ground: see [`crate::clouds::shadow`].
+    /// The shadows that the clouds of the prepared frame throw on the ground: see [`crate::clouds::lit::shadow`].
     ///
     /// None without [`Method::Lit`], and where [`SkyParams::shadow_extent_m`] is 0.
+    #[cfg(feature = "lit")]
     pub fn shadow(&self) -> Option<Shadow<'_>> {
         let (prepared, program) = self.current()?;
         let area = prepared.shadow?;
         Some(Shadow {
-            texture: program.shadow()?,
+            texture: program.map.as_ref()?.shadow()?,
             centre_m: area.centre_m.as_vec2().to_array(),
             extent_m: area.extent_m as f32,
         })
@@ -384,12 +336,13 @@ impl Sky {
     /// Bytes of the textures that only this method reads: its own of the pack and, once they are made, those that it draws.
     pub fn memory_bytes(&self, method: Method) -> u64 {
         let own = self.programs[method as usize].as_ref();
-        let sprites = self
-            .sprites
-            .as_ref()
-            .filter(|_| method == Method::Sprites)
-            .map_or(0, |pass| pass.bytes());
-        self.pack_bytes[method as usize] + own.map_or(0, Program::bytes) + sprites
+        let drawn = own.map_or(0, Program::bytes);
+        #[cfg(feature = "sprites")]
+        let drawn = match method {
+            Method::Sprites => drawn + self.sprites.bytes(),
+            _ => drawn,
+        };
+        self.pack_bytes[method as usize] + drawn
     }
 
     fn current(&self) -> Option<(Prepared, &Program)> {
@@ -398,18 +351,15 @@ impl Sky {
     }
 }
 
-/// The program of a method with the pipelines of a sky model, made if they are not there yet; `octaves` is how many
-/// [`Method::Octaves`] sums.
+/// The program of the parameters' method, with what they need.
 fn fitting<'a>(
     programs: &'a mut [Option<Program>; Method::ALL.len()],
     common: &Common,
-    method: Method,
-    sky: SkyModel,
-    octaves: u32,
+    params: &SkyParams,
 ) -> &'a mut Program {
-    let new = || Program::new(common, method, sky, octaves);
-    let program = programs[method as usize].get_or_insert_with(new);
-    program.fit(common, sky, octaves);
+    let new = || Program::new(common, params);
+    let program = programs[params.method as usize].get_or_insert_with(new);
+    program.fit(common, params);
     program
 }
 

@@ -26,11 +26,6 @@ fn fs_sky(in: Varyings) -> @location(0) vec4f {
     if !ASK_OPAQUE || clouds.a < 1.0 {
         radiance = mix(behind_clouds(direction, in.position.xy), clouds.rgb, clouds.a);
     }
-    if WEATHER {
-        if uniforms.lightning.light.g > 0.0 {
-            radiance += lightning_light(direction, clouds);
-        }
-        radiance = rain_hazed(radiance, direction);
-    }
+    radiance = weather(radiance, direction, clouds);
     return finish(radiance, in.position.xy);
 }

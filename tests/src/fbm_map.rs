@@ -2,7 +2,7 @@
 
 use welkin_pack::Image;
 use welkin_runtime::clouds::fbm::FbmUniforms;
-use welkin_runtime::clouds::fbm_map::{ABSORPTION, DEPTHS};
+use welkin_runtime::clouds::fbm::map::{ABSORPTION, DEPTHS};
 
 use crate::texture::Texture;
 

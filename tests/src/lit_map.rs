@@ -2,7 +2,7 @@
 
 use welkin_pack::{Image, LayerKind, Pack, Role};
 use welkin_runtime::clouds::lit::{LitLayerUniforms, LitUniforms};
-use welkin_runtime::clouds::lit_map::{LEAST_UP, WEIGHTS};
+use welkin_runtime::clouds::lit::map::{LEAST_UP, WEIGHTS};
 use welkin_runtime::params::MAX_LAYERS;
 
 use crate::texture::{Texture, mix, smoothstep};

@@ -1,9 +1,9 @@
 //! What changes a map beside its motion, new states of octaves and a sun that moves on, never makes it jump.
 
 use welkin_pack::LayerKind;
-use welkin_runtime::clouds::fbm_pack::SHADE_BYTES;
-use welkin_runtime::clouds::lit_map::WEIGHTS;
-use welkin_runtime::clouds::octaves_map::NOISE_SIDE;
+use welkin_runtime::clouds::fbm::pack::SHADE_BYTES;
+use welkin_runtime::clouds::lit::map::WEIGHTS;
+use welkin_runtime::clouds::octaves::map::NOISE_SIDE;
 use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, LitLayer, LitParams, Method, Sky, SkyParams};
 use welkin_tests::lit_map::even;

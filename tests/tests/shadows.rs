@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 use glam::{DVec2, Vec2, Vec3};
 use welkin_pack::role::Wrap;
 use welkin_pack::{Image, LayerKind, mapping};
-use welkin_runtime::clouds::shadow::SIDE;
+use welkin_runtime::clouds::lit::shadow::SIDE;
 use welkin_runtime::params::MAX_LAYERS;
 use welkin_runtime::{Camera, LitLayer, LitParams, Method, Sky, SkyParams};
 use welkin_tests::film::Film;

@@ -31,12 +31,7 @@ fn gradient_light(direction: vec3f) -> vec3f {
 }
 
 fn sky_radiance(direction: vec3f) -> vec3f {
-    var radiance: vec3f;
-    if PEREZ {
-        radiance = perez_light(direction);
-    } else {
-        radiance = gradient_light(direction);
-    }
+    var radiance = clear_sky_light(direction);
     if uniforms.sky.overcast.w > 0.0 {
         radiance = mix(radiance, uniforms.sky.overcast.rgb, uniforms.sky.overcast.w);
     }

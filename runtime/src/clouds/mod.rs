@@ -1,12 +1,12 @@
 //! The clouds of each method on a dome.
 
+pub mod coverage;
+#[cfg(feature = "fbm")]
 pub mod fbm;
-pub mod fbm_map;
-pub mod fbm_pack;
+mod histogram;
+#[cfg(feature = "lit")]
 pub mod lit;
-pub mod lit_map;
+#[cfg(feature = "octaves")]
 pub mod octaves;
-pub mod octaves_map;
 pub mod packed;
-pub mod shadow;
 pub mod shared;

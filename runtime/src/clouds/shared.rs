@@ -140,6 +140,17 @@ pub(crate) fn before_smoothstep(value: f32) -> f32 {
     0.5 - ((1.0 - 2.0 * value).asin() / 3.0).sin()
 }
 
+/// The opacity that gives `opacity` together with what leaves `clear` of the light; below 0 none is needed.
+pub(crate) fn behind(opacity: f32, clear: f32) -> f32 {
+    1.0 - (1.0 - opacity) / clear
+}
+
+/// Inverse of `c + k c (1 - c)` in 0..1: the finer reads' roughening. One root, since 0 and 1 stay where they are.
+pub(crate) fn before_roughening(rough: f32, k: f32) -> f32 {
+    let b = 1.0 + k;
+    2.0 * rough / (b + (b * b - 4.0 * k * rough).max(0.0).sqrt()).max(1e-9)
+}
+
 /// A texture coordinate in 0..1: reduced in 64 bits, since seconds have no end.
 pub(crate) fn offset(place: DVec2) -> [f32; 2] {
     let fract = place - place.floor();
@@ -181,5 +192,33 @@ mod tests {
         assert_eq!((closing(0.8), closing(1.0)), (0.0, 1.0));
         assert_eq!((sunlight(0.3), sunlight(0.8)), (1.0, 1.0));
         assert_eq!(sunlight(1.0), 1.0 - SHADE);
+    }
+
+    #[test]
+    fn every_inverse_is_one() {
+        for i in 1..100 {
+            let x = i as f32 / 100.0;
+            assert!(
+                (before_smoothstep(smoothstep(0.0, 1.0, x)) - x).abs() < 1e-3,
+                "{x}"
+            );
+            // Of the packed method and of the octaves.
+            for edge in [0.12, 0.6] {
+                assert!((before_softening(softened(x, edge), edge) - x).abs() < 1e-4);
+            }
+            for k in [-3.0, -1.0, -0.4, 0.0, 0.4, 1.0, 3.0] {
+                let c = before_roughening(x, k);
+                let back = c + k * c * (1.0 - c);
+                assert!(
+                    (0.0..=1.0).contains(&c) && (back - x).abs() < 1e-3,
+                    "{x} {k}: {c}"
+                );
+            }
+        }
+        // Half of the light is behind the veil: 0.1 of the whole is asked for, and the veil alone is enough.
+        assert!(behind(0.1, 0.5) < 0.0);
+        assert!((behind(0.1, 1.0) - 0.1).abs() < 1e-6);
+        let (veil, cloud) = (0.04, behind(0.1, 0.96));
+        assert!((1.0 - (1.0 - veil) * (1.0 - cloud) - 0.1_f32).abs() < 1e-6);
     }
 }

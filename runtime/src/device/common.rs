@@ -3,9 +3,19 @@
 use super::config::SkyConfig;
 use super::layouts::Layouts;
 use super::pipeline::{Overlay, Variant, overlay_pipeline, pipelines};
-use super::shader::{Build, compose};
-use crate::geometry::part::Part;
+use super::shader::Build;
 use crate::params::{Method, SkyModel};
+
+/// What a shader draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dome {
+    /// Whose clouds.
+    pub method: Method,
+    /// Whose clear sky.
+    pub sky: SkyModel,
+    /// Whether rays, rain and lightning are compiled in.
+    pub weather: bool,
+}
 
 /// What every program is made from.
 #[derive(Debug)]
@@ -13,15 +23,11 @@ pub(crate) struct Common {
     pub device: wgpu::Device,
     pub config: SkyConfig,
     pub build: Build,
-    /// The parts of the shader.
-    pub parts: &'static [Part],
+    /// The text of the shader of a dome.
+    pub compose: fn(Build, Dome) -> String,
     pub layouts: Layouts,
-    /// The octaves of [`Method::Fbm`] as the pack has them.
-    pub fbm: wgpu::Texture,
-    /// The layers of [`Method::Lit`].
-    pub layers: wgpu::Texture,
-    /// The sheet of [`Method::Sprites`].
-    pub sheet: wgpu::Texture,
+    /// The textures of the pack that one method alone reads, at its place in [`Method::ALL`].
+    pub own: [Option<wgpu::Texture>; Method::ALL.len()],
     /// Whether the sky is drawn on the dome's mesh.
     pub mesh: bool,
     /// Whether the target can be blended with.
@@ -29,15 +35,16 @@ pub(crate) struct Common {
 }
 
 impl Common {
-    /// The shader of a dome with a sky model.
-    pub fn module(&self, method: Method, sky: SkyModel) -> wgpu::ShaderModule {
-        let build = Build {
-            method,
-            sky,
-            ..self.build
-        };
-        let source = wgpu::ShaderSource::Wgsl(compose(build, self.parts).into());
-        let label = Some(method.name());
+    /// The texture of the pack that this method alone reads.
+    pub fn own_texture(&self, method: Method) -> Option<&wgpu::Texture> {
+        self.own[method as usize].as_ref()
+    }
+
+    /// The shader of a dome.
+    pub fn module(&self, dome: Dome) -> wgpu::ShaderModule {
+        let text = (self.compose)(self.build, dome);
+        let source = wgpu::ShaderSource::Wgsl(text.into());
+        let label = Some(dome.method.name());
         self.device
             .create_shader_module(wgpu::ShaderModuleDescriptor { label, source })
     }

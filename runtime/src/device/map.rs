@@ -4,7 +4,7 @@
 //! The map is drawn, then each level is averaged from the one above it: one pass each, down to 32 texels, for the dome
 //! names the level that it reads. A map tiles.
 
-use crate::device::layouts::Layouts;
+use crate::device::layouts::{Layouts, array_layers};
 use crate::geometry::part::Part;
 
 /// Its part of the shader.
@@ -16,83 +16,103 @@ pub const PART: Part = Part {
 /// Levels end at this many texels a side: a pixel of the smallest pictures covers no more.
 pub const LEAST_SIDE: u32 = 32;
 
-/// A map on the device.
+/// A map on the device: a plane, or an array of which several layers are drawn at once.
 #[derive(Debug)]
 pub(crate) struct Map {
-    texture: wgpu::Texture,
-    levels: Vec<wgpu::TextureView>,
+    /// The map itself.
+    pub texture: wgpu::Texture,
+    /// The targets of each level: one a layer.
+    levels: Vec<Vec<wgpu::TextureView>>,
     /// Each level as what the next one is made from.
     sources: Vec<wgpu::BindGroup>,
-    averaging: wgpu::RenderPipeline,
-    /// Group 1 of the dome.
-    pub group: wgpu::BindGroup,
+    /// What averages the levels of each set of layers that is drawn at once.
+    averaging: Vec<wgpu::RenderPipeline>,
 }
 
+/// Of every map.
+pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
 impl Map {
-    /// An empty map of `side` texels a side, a power of two.
-    pub fn new(
+    /// An empty plane of `side` texels a side.
+    pub fn plane(
         device: &wgpu::Device,
         module: &wgpu::ShaderModule,
         layouts: &Layouts,
-        format: wgpu::TextureFormat,
         side: u32,
     ) -> Map {
-        let averaging = layouts.off_screen(device, module, "fs_level", &layouts.texture, format);
-        Map::with_pipeline(device, layouts, averaging, format, side)
+        let averaging = layouts.off_screen(device, module, "fs_level", &layouts.texture, FORMAT);
+        Map::new(device, layouts, vec![averaging], [side, 1])
     }
 
-    /// An empty map of another size, by the same pipeline.
+    /// An empty plane of another size, by the same pipeline.
     pub fn resized(&self, device: &wgpu::Device, layouts: &Layouts, side: u32) -> Map {
-        let format = self.texture.format();
-        Map::with_pipeline(device, layouts, self.averaging.clone(), format, side)
+        Map::new(device, layouts, self.averaging.clone(), [side, 1])
     }
 
-    fn with_pipeline(
+    /// An empty map of texels a side, a power of two, and layers, 1 for a plane. `averaging` makes its levels: a pipeline for each set of
+    /// layers that is drawn at once.
+    pub fn new(
         device: &wgpu::Device,
         layouts: &Layouts,
-        averaging: wgpu::RenderPipeline,
-        format: wgpu::TextureFormat,
-        side: u32,
+        averaging: Vec<wgpu::RenderPipeline>,
+        [side, drawn]: [u32; 2],
     ) -> Map {
         let count = (side / LEAST_SIDE).ilog2() + 1;
-        let texture = target(device, "map", format, [side, side, 1], count);
-        let view = |first: u32, count: u32| {
+        let is_plane = drawn == 1;
+        let layers = if is_plane { 1 } else { array_layers(drawn) };
+        let texture = target(device, "map", FORMAT, [side, side, layers], count);
+        let view = |level: u32, layers: std::ops::Range<u32>, dimension| {
             texture.create_view(&wgpu::TextureViewDescriptor {
-                base_mip_level: first,
-                mip_level_count: Some(count),
+                dimension: Some(dimension),
+                base_mip_level: level,
+                mip_level_count: Some(1),
+                base_array_layer: layers.start,
+                array_layer_count: Some(layers.len() as u32),
                 ..Default::default()
             })
         };
-        let levels: Vec<_> = (0..count).map(|level| view(level, 1)).collect();
-        let sources = levels
-            .iter()
-            .map(|level| layouts.texture_group(device, level))
-            .collect();
+        let plane = wgpu::TextureViewDimension::D2;
+        let targets = |level: u32| {
+            (0..drawn)
+                .map(|layer| view(level, layer..layer + 1, plane))
+                .collect()
+        };
+        let source = |level: u32| {
+            if is_plane {
+                return layouts.texture_group(device, &view(level, 0..1, plane));
+            }
+            let all = view(level, 0..layers, wgpu::TextureViewDimension::D2Array);
+            layouts.array_group(device, &all)
+        };
         Map {
-            sources,
+            levels: (0..count).map(targets).collect(),
+            sources: (0..count - 1).map(source).collect(),
             averaging,
-            group: layouts.texture_group(device, &view(0, count)),
-            levels,
             texture,
         }
     }
 
-    /// The map itself.
-    pub fn texture(&self) -> &wgpu::Texture {
-        &self.texture
+    /// Group 1 of a dome that reads a plane.
+    pub fn group(&self, device: &wgpu::Device, layouts: &Layouts) -> wgpu::BindGroup {
+        layouts.texture_group(device, &self.texture.create_view(&Default::default()))
     }
 
-    /// Draws level 0 by `pipeline` from `source`, then the levels below it.
+    /// Draws level 0 of one set of layers by `pipeline` from `source`, then the levels below it.
     pub fn record(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         shared: &wgpu::BindGroup,
-        pipeline: &wgpu::RenderPipeline,
+        (set, pipeline): (usize, &wgpu::RenderPipeline),
         source: &wgpu::BindGroup,
     ) {
-        draw(encoder, &self.levels[0], pipeline, [shared, source]);
-        for (level, above) in self.levels.iter().skip(1).zip(&self.sources) {
-            draw(encoder, level, &self.averaging, [shared, above]);
+        let at_once = self.levels[0].len() / self.averaging.len();
+        let averaging = &self.averaging[set];
+        let passes = [(pipeline, source)]
+            .into_iter()
+            .chain(self.sources.iter().map(|above| (averaging, above)));
+        for (level, (pipeline, source)) in self.levels.iter().zip(passes) {
+            let targets = &level[set * at_once..][..at_once];
+            draw_into(encoder, targets, pipeline, [shared, source]);
         }
     }
 }

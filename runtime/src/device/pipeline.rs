@@ -8,8 +8,8 @@ use crate::geometry::dome::Vertex;
 /// What a frame needs beyond the clear sky and one layer of clouds.
 ///
 /// By day no star shows, the upper layer is mostly off, and weather is rare. A branch over a uniform would do for a GPU; a
-/// software rasteriser runs both of its sides, and takes twice the time. So each is a pipeline: four, and four that are made when
-/// a frame first has weather.
+/// software rasteriser runs both of its sides, and takes twice the time. So each is a pipeline: four, and four of a shader with weather that are
+/// made when a frame first has any.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Variant {
     /// Stars and galaxy.
@@ -36,12 +36,11 @@ impl Variant {
     }
 
     /// The shader's overridable constants.
-    fn constants(self) -> [(&'static str, f64); 3] {
+    fn constants(self) -> [(&'static str, f64); 2] {
         let number = |on: bool| f64::from(u8::from(on));
         [
             ("NIGHT", number(self.night)),
             ("UPPER_LAYER", number(self.upper_layer)),
-            ("WEATHER", number(self.weather)),
         ]
     }
 }

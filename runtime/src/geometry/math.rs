@@ -6,6 +6,19 @@ pub(crate) fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
+/// Slope and bend of Page's approximation of the normal distribution: `share = (1 + tanh(slope z (1 + bend z^2))) / 2`, with
+/// `sqrt(8 / pi) / 2` as the slope. E. Page, "Approximations to the Cumulative Normal Function and its Inverse for Use on a Pocket
+/// Calculator", Applied Statistics 26(1), 1977. Its error is below 0.0002.
+pub const NORMAL_SLOPE: f32 = 0.797_884_6;
+/// See [`NORMAL_SLOPE`].
+pub const NORMAL_BEND: f32 = 0.044_715;
+
+/// The share of a normal distribution below z, by Page's approximation.
+#[cfg(feature = "fbm")]
+pub(crate) fn normal_share(z: f32) -> f32 {
+    0.5 + 0.5 * (NORMAL_SLOPE * z * (1.0 + NORMAL_BEND * z * z)).tanh()
+}
+
 /// A hash of 64 bits: the finaliser of SplitMix64. G. L. Steele, D. Lea, C. H. Flood, "Fast Splittable Pseudorandom Number
 /// Generators", OOPSLA 2014.
 pub(crate) fn mix(value: u64) -> u64 {

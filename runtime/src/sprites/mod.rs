@@ -27,6 +27,7 @@ pub(crate) mod frame;
 pub mod grid;
 pub mod hours;
 pub mod instances;
+pub(crate) mod layer;
 pub mod locks;
 pub mod order;
 pub mod outline;
@@ -46,7 +47,6 @@ use crate::clear_sky::light::{Light, luminary};
 use crate::clouds::shared::{self, CloudView, LOW_HEIGHT_M};
 use crate::geometry::math::{smoothstep, vec4};
 use crate::params::SkyParams;
-use crate::weather::lightning::LightningUniforms;
 
 /// Clouds of sprites: see sprites.wgsl for what each component holds.
 #[repr(C)]
@@ -90,13 +90,14 @@ const MOON: [f32; 2] = [-0.10, 0.04];
 const FLASH_ABOVE_M: f64 = 700.0;
 const FLASH_REACH_M: f32 = 1800.0;
 
-/// The method's share of the uniforms. `params` are in range; `hours` is the pack's table of light.
+/// The method's share of the uniforms. `params` are in range; `hours` is the pack's table of light, `flash`
+/// the light of a flash of lightning.
 pub fn uniforms(
     params: &SkyParams,
     view: &CloudView,
     light: &Light,
     hours: &[Hour],
-    flash: &LightningUniforms,
+    flash: Vec3,
 ) -> SpriteUniforms {
     let own = &params.sprites;
     let hour = hours::at(hours, params.time);
@@ -111,7 +112,6 @@ pub fn uniforms(
         f64::from(params.weather.lightning.place_m[1]),
     ];
     let flash_place = DVec3::new(x, y, z) - view.place_m;
-    let rgb = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
     SpriteUniforms {
         sun: vec4(luminary.sun_direction, mix(RELIEF)),
         colour: vec4(Vec3::from(hour.colour) * (change * shut), hour.least),
@@ -123,7 +123,7 @@ pub fn uniforms(
             1.0 / (CHANGE * billboards),
             billboards,
         ],
-        flash: vec4(rgb(flash.light), 0.0),
+        flash: vec4(flash, 0.0),
         flash_place: vec4(flash_place.as_vec3(), 1.0 / FLASH_REACH_M),
     }
 }
@@ -217,8 +217,7 @@ mod tests {
                 seconds: 0.0,
                 place_m: DVec3::ZERO,
             };
-            let none = LightningUniforms::default();
-            uniforms(&SkyParams::default(), &view, &light, &hours, &none)
+            uniforms(&SkyParams::default(), &view, &light, &hours, Vec3::ZERO)
         };
         assert_eq!(at(0.5).colour[0], 1.0);
         assert!(at(-0.0999).colour[0] < 1e-3 && at(-0.1001).colour[0] < 1e-3);

@@ -16,7 +16,7 @@ use super::pipelines::{GroupLayouts, Pipelines, STRIDE, one_of, pictures};
 use super::ring::{self, Ring, RingUniforms, SpriteView, Station, Step};
 use super::scene::{AMOUNTS_SIDE, Draw, Scene, planes};
 use super::wind::lift_m;
-use crate::device::common::Common;
+use crate::device::common::{Common, Dome};
 use crate::params::{Method, SkyModel};
 
 /// Views of a frame: the screen's and the ring's pictures'.
@@ -29,6 +29,8 @@ pub(crate) struct Pass {
     groups: GroupLayouts,
     /// Of each sky model, at its place in [`SkyModel::ALL`].
     pipelines: [Option<Pipelines>; SkyModel::ALL.len()],
+    /// The pictures of the sprites.
+    sheet: wgpu::Texture,
     instances: wgpu::Texture,
     /// Triangles of as many outlines and boxes as a slot has room for.
     indices: [wgpu::Buffer; 2],
@@ -53,9 +55,15 @@ pub(crate) struct Pass {
 }
 
 impl Pass {
-    /// A field on a device, seen that far.
-    pub fn new(common: &Common, field: &Field, outlines: &[Outline], distance_m: f32) -> Pass {
-        let (device, sheet) = (&common.device, &common.sheet);
+    /// A field on a device, with its sheet of pictures, seen that far.
+    pub fn new(
+        common: &Common,
+        sheet: &wgpu::Texture,
+        field: &Field,
+        outlines: &[Outline],
+        distance_m: f32,
+    ) -> Pass {
+        let device = &common.device;
         let mut scene = Scene::new(field);
         let distance = scene.sight_m(distance_m, device.limits().max_texture_dimension_2d);
         scene.fit(distance);
@@ -89,6 +97,7 @@ impl Pass {
             pictured: 0,
             instances,
             step: Step::Keep,
+            sheet: sheet.clone(),
             scene,
             groups,
             amounts,
@@ -102,7 +111,12 @@ impl Pass {
     pub fn load(&mut self, common: &Common, sky: SkyModel) {
         let groups = &self.groups;
         self.pipelines[sky as usize].get_or_insert_with(|| {
-            let module = common.module(Method::Sprites, sky);
+            let dome = Dome {
+                method: Method::Sprites,
+                sky,
+                weather: false,
+            };
+            let module = common.module(dome);
             Pipelines::new(common, &module, groups)
         });
     }
@@ -116,7 +130,7 @@ impl Pass {
         shared: &wgpu::BindGroup,
         frame: &Frame<'_>,
     ) {
-        let (device, sheet) = (&common.device, &common.sheet);
+        let (device, sheet) = (&common.device, &self.sheet.clone());
         let asked = frame.params.sprites.distance_m;
         let sight_m = self
             .scene

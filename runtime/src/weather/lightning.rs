@@ -20,12 +20,11 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, Vec3};
 
 use crate::clear_sky::light::luminance;
-use crate::clouds::lit::LitUniforms;
 use crate::clouds::shared::{CloudUniforms, CloudView, LOW_HEIGHT_M};
 use crate::geometry::dome::CLOUD_SPHERE_RADIUS;
 use crate::geometry::math::{mix, vec4};
 use crate::geometry::part::{Part, Value};
-use crate::params::{Lightning, Method, SkyParams};
+use crate::params::{Lightning, SkyParams};
 
 /// Its part of the shader.
 pub const PART: Part = Part {
@@ -111,7 +110,7 @@ pub fn uniforms(
     params: &SkyParams,
     view: &CloudView,
     clouds: &CloudUniforms,
-    lit: &LitUniforms,
+    sunlight: Vec3,
 ) -> LightningUniforms {
     let flash = &params.weather.lightning;
     let brightness = brightness(flash, view.seconds);
@@ -120,11 +119,7 @@ pub fn uniforms(
     }
     let [east, south] = flash.place_m.map(f64::from);
     let (place, nearness) = on_the_plane(DVec2::new(east, south), view);
-    let sunlight = match params.method {
-        Method::Lit => lit.light,
-        _ => clouds.sunlight,
-    };
-    let [sunlight, ambient] = [sunlight, clouds.ambient].map(|l| Vec3::new(l[0], l[1], l[2]));
+    let ambient = Vec3::from_slice(&clouds.ambient);
     let white = luminance(sunlight + ambient).max(1e-3);
     LightningUniforms {
         place: [place.x as f32, place.y as f32, 0.0, 1.0 / white],

@@ -1,5 +1,14 @@
 //! Rain, rays and lightning.
 
 pub mod lightning;
+pub(crate) mod overlays;
 pub mod rain;
 pub mod rays;
+
+use crate::geometry::part::Part;
+
+/// What rain and lightning add to a pixel of the sky.
+pub const PART: Part = Part {
+    constants: &[],
+    wgsl: include_str!("weather.wgsl"),
+};

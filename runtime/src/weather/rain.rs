@@ -23,12 +23,11 @@ use std::f32::consts::TAU;
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 
-use crate::clouds::lit::LitUniforms;
 use crate::clouds::shared::{CloudUniforms, CloudView};
 use crate::geometry::camera::Rays;
 use crate::geometry::math::vec4;
 use crate::geometry::part::{Part, Value};
-use crate::params::{Method, SkyParams};
+use crate::params::SkyParams;
 use crate::weather::lightning::LightningUniforms;
 
 /// Its part of the shader.
@@ -136,7 +135,7 @@ pub fn uniforms(
     view: &CloudView,
     screen: &Rays,
     clouds: &CloudUniforms,
-    lit: &LitUniforms,
+    sunlight: Vec3,
     flash: &LightningUniforms,
 ) -> RainUniforms {
     let amount = params.weather.rain;
@@ -150,11 +149,7 @@ pub fn uniforms(
     let axes = [right, up, up.cross(right)].map(|axis| axis.as_vec3());
     let [first, count] = columns_in_sight(axes, screen, view.pixel_rad);
     let rgb = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
-    let sunlight = match params.method {
-        Method::Lit => lit.light,
-        _ => clouds.sunlight,
-    };
-    let (sun, ambient) = (rgb(sunlight), rgb(clouds.ambient));
+    let (sun, ambient) = (sunlight, rgb(clouds.ambient));
     let [lit_streaks, lit_haze] = FLASH.map(|share| share * rgb(flash.light));
     RainUniforms {
         right: vec4(axes[0], amount.sqrt()),
@@ -246,7 +241,7 @@ mod tests {
             &view,
             &screen,
             &CloudUniforms::default(),
-            &LitUniforms::default(),
+            Vec3::ZERO,
             &LightningUniforms::default(),
         )
     }

@@ -414,7 +414,7 @@ mod tests {
             // Of an hour-long way the sun takes the same share, wherever it stands at noon.
             let [a, b] = times.map(|time| welkin_pack::mapping::sun_direction(time, 1.0));
             let cosine: f32 = (0..3).map(|i| a[i] * b[i]).sum();
-            assert!(cosine.acos() > 2.0 * welkin_runtime::clouds::fbm_pack::CELL_RAD as f32);
+            assert!(cosine.acos() > 2.0 * welkin_runtime::clouds::fbm::pack::CELL_RAD as f32);
         }
     }
 }

@@ -21,6 +21,8 @@
 //! # Practice
 //! Three trilinear reads; one bilinear with sunset above 0, one more trilinear with the upper layer on.
 
+pub mod coverage;
+
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, Vec3};
 

@@ -20,9 +20,9 @@
 
 use welkin_pack::Texture;
 
-use crate::clouds::fbm_pack;
+use crate::clouds::fbm::pack;
 use crate::device::layouts::Layouts;
-use crate::device::map::{self, Map};
+use crate::device::map::{FORMAT, Map};
 use crate::geometry::part::{Part, Value};
 
 /// Its part of the shader.
@@ -31,7 +31,7 @@ pub const PART: Part = Part {
         ("FBM_ABSORPTION", Value::F32(ABSORPTION)),
         ("FBM_DEPTHS", Value::Vec4(DEPTHS)),
     ],
-    wgsl: include_str!("fbm_map.wgsl"),
+    wgsl: include_str!("map.wgsl"),
 };
 
 /// Texels a side.
@@ -125,11 +125,13 @@ pub fn offsets(way: f64) -> [[f32; 2]; MAX_OCTAVES] {
 /// The pass on a device, and the re-packing before it.
 #[derive(Debug)]
 pub(crate) struct Pass {
-    packing: fbm_pack::Pass,
+    pub packing: pack::Pass,
     source: wgpu::BindGroup,
     pipeline: wgpu::RenderPipeline,
     /// What it draws.
     pub map: Map,
+    /// Group 1 of the dome.
+    pub group: wgpu::BindGroup,
 }
 
 impl Pass {
@@ -140,18 +142,19 @@ impl Pass {
         layouts: &Layouts,
         octaves: &wgpu::Texture,
     ) -> Pass {
-        let packing = fbm_pack::Pass::new(device, module, layouts, octaves);
-        let format = wgpu::TextureFormat::Rgba8Unorm;
+        let packing = pack::Pass::new(device, module, layouts, octaves);
+        let map = Map::plane(device, module, layouts, SIDE);
         Pass {
             source: layouts.layers_group(device, packing.texture()),
-            pipeline: layouts.off_screen(device, module, "fs_fbm_map", &layouts.layers, format),
-            map: Map::new(device, module, layouts, format, SIDE),
+            pipeline: layouts.off_screen(device, module, "fs_fbm_map", &layouts.layers, FORMAT),
+            group: map.group(device, layouts),
+            map,
             packing,
         }
     }
 
     /// Records the pass; `step` is the uniforms' step towards the sun.
-    pub fn record(
+    pub fn draw(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         shared: &wgpu::BindGroup,
@@ -159,12 +162,7 @@ impl Pass {
     ) {
         self.packing.record(encoder, shared, step);
         self.map
-            .record(encoder, shared, &self.pipeline, &self.source);
-    }
-
-    /// Bytes of its textures.
-    pub fn bytes(&self) -> u64 {
-        map::texture_bytes(self.packing.texture()) + map::texture_bytes(self.map.texture())
+            .record(encoder, shared, (0, &self.pipeline), &self.source);
     }
 }
 

@@ -19,7 +19,7 @@ fn octaves_uv(dome: OctaveDome, plane: vec2f) -> vec2f {
     return dome.axes.xy * plane.x + dome.axes.zw * plane.y + dome.place.xy;
 }
 
-// What the map holds: see octaves_map.wgsl.
+// What the map holds: see map.wgsl.
 fn octaves_map_at(uv: vec2f, level: f32) -> vec4f {
     return textureSampleLevel(map_texture, repeat_sampler, uv, level);
 }

@@ -18,7 +18,7 @@
 //!
 //! ```no_run
 //! # fn f(device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, sky: &mut welkin_runtime::Sky, uniforms: &wgpu::Buffer, layout: &wgpu::BindGroupLayout, sampler: &wgpu::Sampler) {
-//! use welkin_runtime::clouds::shadow;
+//! use welkin_runtime::clouds::lit::shadow;
 //! use welkin_runtime::{Camera, Method, SkyParams};
 //! // Once: the function joins the shader of the ground, which multiplies its direct light by
 //! // cloud_shadow(shadow_map, linear_clamp_sampler, ground.shadow_area, position.xz)
@@ -46,11 +46,10 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
 
-use crate::clouds::lit::{self, LitUniforms};
-use crate::clouds::lit_map;
+use crate::clouds::lit::{self, LitUniforms, map};
 use crate::clouds::shared::CloudView;
 use crate::device::layouts::Layouts;
-use crate::device::map;
+use crate::device::map::{draw, target};
 use crate::geometry::part::Part;
 use crate::params::{MAX_LAYERS, Method, SkyParams};
 
@@ -146,7 +145,7 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, lit: &LitUniforms) -> Shad
         let corner = (plane + corner_m / height_m) / near;
         let texel = texel_m / (height_m * near);
         let tiles = texel * f64::from(own.axes[0]).hypot(f64::from(own.axes[1]));
-        let level = (tiles * f64::from(lit_map::SIDE)).log2() - f64::from(own.sun[2]);
+        let level = (tiles * f64::from(map::SIDE)).log2() - f64::from(own.sun[2]);
         *seen = [corner.x, corner.y, texel, level].map(|v| v as f32);
     }
     shadow
@@ -163,7 +162,7 @@ pub(crate) struct Pass {
 impl Pass {
     pub fn new(device: &wgpu::Device, module: &wgpu::ShaderModule, layouts: &Layouts) -> Pass {
         let format = wgpu::TextureFormat::R8Unorm;
-        let texture = map::target(device, "cloud shadows", format, [SIDE, SIDE, 1], 1);
+        let texture = target(device, "cloud shadows", format, [SIDE, SIDE, 1], 1);
         Pass {
             view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
             pipeline: layouts.off_screen(device, module, "fs_shadow", &layouts.lit, format),
@@ -182,7 +181,7 @@ impl Pass {
         shared: &wgpu::BindGroup,
         own: &wgpu::BindGroup,
     ) {
-        map::draw(encoder, &self.view, &self.pipeline, [shared, own]);
+        draw(encoder, &self.view, &self.pipeline, [shared, own]);
     }
 }
 

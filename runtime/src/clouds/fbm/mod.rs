@@ -2,7 +2,7 @@
 //!
 //! # Theory
 //! I. Quilez, "Dynamic Clouds", 2005. The octaves of a fractal sum are kept apart and moved each with its own velocity, so
-//! that their sum changes its shape ([`crate::clouds::fbm_map`]). A threshold a and a sharpness b open the sky by a linear map. Four
+//! that their sum changes its shape ([`crate::clouds::fbm::map`]). A threshold a and a sharpness b open the sky by a linear map. Four
 //! heights along a ray towards the sun tell how much cloud the light has passed; it blends two colours of the user.
 //!
 //! # Changes versus the article
@@ -16,14 +16,15 @@
 //! # Practice
 //! Two reads of the map a pixel, whatever the number of octaves.
 
+pub mod coverage;
+pub mod map;
+pub mod pack;
+
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat2, DVec2, Vec3};
 
-use crate::clouds::fbm_map::{self, Octaves};
-use crate::clouds::fbm_pack;
-use crate::clouds::octaves_map::{NORMAL_BEND, NORMAL_SLOPE};
 use crate::clouds::shared::{CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, closing, offset};
-use crate::geometry::math::vec4;
+use crate::geometry::math::{normal_share, vec4};
 use crate::geometry::part::{Part, Value};
 use crate::params::SkyParams;
 
@@ -94,20 +95,25 @@ const LOWEST_RAY: f32 = -0.8;
 const FARTHEST: f32 = 4.0;
 
 /// The method's share of the uniforms. `params` are in range; `sun` is the unit direction towards the sun.
-pub fn uniforms(params: &SkyParams, view: &CloudView, octaves: &Octaves, sun: Vec3) -> FbmUniforms {
+pub fn uniforms(
+    params: &SkyParams,
+    view: &CloudView,
+    octaves: &map::Octaves,
+    sun: Vec3,
+) -> FbmUniforms {
     let own = params.fbm;
     let tile = TILE[0] + (TILE[1] - TILE[0]) * f64::from(params.height);
     let axes = DMat2::from_angle(TURN) * (1.0 / tile);
     let [x, y] = offset(START + axes * view.place(LOW_HEIGHT_M));
     let near = view.distance(LOW_HEIGHT_M);
-    let texels_a_height = f64::from(fbm_map::SIDE) / tile * near;
+    let texels_a_height = f64::from(map::SIDE) / tile * near;
     // Tiles that the slowest octave goes.
     let way = MAX_WIND * f64::from(params.speed) * view.seconds / tile;
-    let offsets = fbm_map::offsets(way);
-    let weights = fbm_map::weights(octaves);
-    let (mean, spread) = fbm_map::mean_and_spread(octaves);
+    let offsets = map::offsets(way);
+    let weights = map::weights(octaves);
+    let (mean, spread) = map::mean_and_spread(octaves);
     let [m, n, n_of_ray] = remap(params.cover, own.sharpness, mean, spread);
-    let step = fbm_pack::step(sun, TURN);
+    let step = pack::step(sun, TURN);
     let pair = |k: usize| {
         [
             offsets[k][0],
@@ -119,7 +125,7 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, octaves: &Octaves, sun: Ve
     FbmUniforms {
         axes: (axes * near).to_cols_array().map(|v| v as f32),
         place: [x, y, view.level(texels_a_height), 0.0],
-        remap: [m, n, octaves.count() as f32, fbm_map::SIDE as f32],
+        remap: [m, n, octaves.count() as f32, map::SIDE as f32],
         lit: vec4(Vec3::from(own.lit), 0.85 + 0.25 * params.density),
         shaded: vec4(Vec3::from(own.shaded), 0.9),
         step: [step[0], step[1], mean, n_of_ray],
@@ -150,8 +156,11 @@ fn normal_quantile(share: f32) -> f32 {
     let (mut low, mut high) = (-FARTHEST, FARTHEST);
     for _ in 0..24 {
         let z = 0.5 * (low + high);
-        let below = 0.5 + 0.5 * (NORMAL_SLOPE * z * (1.0 + NORMAL_BEND * z * z)).tanh();
-        if below < share { low = z } else { high = z }
+        if normal_share(z) < share {
+            low = z
+        } else {
+            high = z
+        }
     }
     0.5 * (low + high)
 }
@@ -160,12 +169,12 @@ fn normal_quantile(share: f32) -> f32 {
 pub fn overcast(fbm: &FbmUniforms, clouds: &CloudUniforms) -> Vec3 {
     let xyz = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
     let height = fbm.remap[0] * fbm.step[2] + fbm.step[3];
-    let inside = fbm_map::DEPTHS
+    let inside = map::DEPTHS
         .iter()
         .map(|depth| (height - depth).max(0.0))
         .sum::<f32>()
         / 4.0;
-    let shade = fbm.lit[3] * (1.0 - (-fbm_map::ABSORPTION * inside).exp2());
+    let shade = fbm.lit[3] * (1.0 - (-map::ABSORPTION * inside).exp2());
     let colour = xyz(fbm.lit).lerp(xyz(fbm.shaded), shade.clamp(0.0, 1.0));
     colour * (xyz(clouds.sunlight) + xyz(clouds.ambient))
 }

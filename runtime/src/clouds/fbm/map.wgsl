@@ -1,4 +1,4 @@
-// The map of the fbm method: octaves moved and summed, remapped, and the march towards the sun. CPU part: fbm_map.rs.
+// The map of the fbm method: octaves moved and summed, remapped, and the march towards the sun. CPU part: map.rs.
 fn fbm_offset(octave: i32) -> vec2f {
     let fbm = uniforms.fbm;
     var pair = fbm.offsets_a;

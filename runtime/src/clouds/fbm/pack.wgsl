@@ -1,4 +1,4 @@
-// Re-packs an octave of the fbm method for the sun as it stands. CPU part: fbm_pack.rs.
+// Re-packs an octave of the fbm method for the sun as it stands. CPU part: pack.rs.
 @fragment
 fn fs_fbm_pack(map: MapVaryings) -> @location(0) vec4f {
     let uv = map.position.xy / vec2f(textureDimensions(layers_texture));

@@ -13,7 +13,7 @@
 //! - The paper's clouds are a noise that is shifted. Here each layer blends two reads that move apart, so clouds form and
 //!   dissolve; the blend is brought back to an even distribution, so cover stays the covered share.
 //! - Cover is calibrated: shares of [`SkyParams::cover`] go to the layers such that together they cover it.
-//! - Normals, opacity and shade are functions of the place in a layer, so they are drawn off screen ([`crate::clouds::lit_map`]). Layers shade
+//! - Normals, opacity and shade are functions of the place in a layer, so they are drawn off screen ([`crate::clouds::lit::map`]). Layers shade
 //!   the layers below them by what they leave of the light, a product in place of the paper's sum.
 //! - The radial blur has three places on the way to where the sun is seen on the dome ([`BLUR`]), as far apart as the light of a sun at
 //!   that place would go through a cloud of the kind's thickness; its length, which the paper does not tell, ends at [`LONGEST_WAY`].
@@ -28,12 +28,15 @@
 //! # Practice
 //! Ten reads of texture arrays an iteration of three layers, used or not. Four passes of 256 texels and less an iteration.
 
+pub mod coverage;
+pub mod map;
+pub mod shadow;
+
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat2, DVec2, Vec2, Vec3};
 use welkin_pack::LayerKind;
 
 use crate::clear_sky::light::{Light, luminary};
-use crate::clouds::lit_map;
 use crate::clouds::shared::{CloudUniforms, CloudView, OPAQUE, before_smoothstep, closing, offset};
 use crate::geometry::dome::{self, Hit, Mesh};
 use crate::geometry::math::{smoothstep, vec4};
@@ -230,7 +233,7 @@ pub fn uniforms(
         count += 1;
     }
     LitUniforms {
-        dome: [f2, 1.0 - f2, count as f32, lit_map::SIDE as f32],
+        dome: [f2, 1.0 - f2, count as f32, map::SIDE as f32],
         light: vec4(light.sunlight * shut(params.cover), own.k1),
         towards: vec4(sun, own.k2),
         source: vec4(Vec3::new(seen.x, seen.z, 0.0), 0.0),
@@ -294,7 +297,7 @@ fn layer_uniforms(
     let intervals = view.seconds / f64::from(own.formation_interval_s);
     let [change_x, change_y] = offset(STARTS[5 - index] + CHANGE_WAY * (intervals / CELLS));
     let near = view.distance(height_m);
-    let texels_a_height = f64::from(lit_map::SIDE) * height_m / tile_m * near;
+    let texels_a_height = f64::from(map::SIDE) * height_m / tile_m * near;
     let towards = Vec2::new(sun.x, sun.z).as_dvec2();
     // Of two steps each way; a viewer near the layer sees no farther than to the sun.
     let step = 0.5 * (look.thickness_m / (height_m * near)).min(1.0);

@@ -25,8 +25,8 @@
 use half::f16;
 
 use crate::device::layouts::{Layouts, array_layers};
-use crate::device::map::{self, Map};
-use crate::geometry::math::mix;
+use crate::device::map::{FORMAT, Map};
+use crate::geometry::math::{NORMAL_BEND, NORMAL_SLOPE, mix};
 use crate::geometry::part::{Part, Value};
 use crate::params::{MAX_OCTAVES, SkyParams};
 
@@ -38,7 +38,7 @@ pub const PART: Part = Part {
         ("NORMAL_BEND", Value::F32(NORMAL_BEND)),
         ("OCTAVE_RELIEF_COUNT", Value::Int(RELIEF_COUNT)),
     ],
-    wgsl: include_str!("octaves_map.wgsl"),
+    wgsl: include_str!("map.wgsl"),
 };
 
 /// Texels a side of an octave's noise.
@@ -52,13 +52,6 @@ pub const RELIEF_COUNT: i32 = 2;
 
 /// Cells across the map, in the order in which octaves are added.
 const CELLS: [u32; MAX_OCTAVES as usize] = [32, 64, 128, 256, 16, 8, 512, 1024];
-
-/// `sqrt(8 / pi) / 2` and the cubic term of Page's approximation: `share = (1 + tanh(slope z (1 + bend z^2))) / 2`.
-/// E. Page, "Approximations to the Cumulative Normal Function and its Inverse for Use on a Pocket Calculator",
-/// Applied Statistics 26(1), 1977. Its error is below 0.0002.
-pub const NORMAL_SLOPE: f32 = 0.797_884_6;
-/// See [`NORMAL_SLOPE`].
-pub const NORMAL_BEND: f32 = 0.044_715;
 
 /// Texels a side of the map for a number of octaves.
 pub fn side(count: u32) -> u32 {
@@ -186,11 +179,13 @@ impl Place {
 /// The pass on a device.
 #[derive(Debug)]
 pub(crate) struct Pass {
-    states: wgpu::Texture,
+    pub states: wgpu::Texture,
     source: wgpu::BindGroup,
     pipeline: wgpu::RenderPipeline,
     /// What it draws.
     pub map: Map,
+    /// Group 1 of the dome.
+    pub group: wgpu::BindGroup,
 }
 
 impl Pass {
@@ -200,29 +195,31 @@ impl Pass {
         layouts: &Layouts,
         count: u32,
     ) -> Pass {
-        let format = wgpu::TextureFormat::Rgba8Unorm;
         let states = states_texture(device, count);
+        let map = Map::plane(device, module, layouts, side(count));
         Pass {
             source: layouts.layers_group(device, &states),
-            pipeline: layouts.off_screen(device, module, "fs_octaves_map", &layouts.layers, format),
-            map: Map::new(device, module, layouts, format, side(count)),
+            pipeline: layouts.off_screen(device, module, "fs_octaves_map", &layouts.layers, FORMAT),
+            group: map.group(device, layouts),
+            map,
             states,
         }
     }
 
     /// Makes the textures anew if they are for another number of octaves.
-    pub fn fit(&mut self, device: &wgpu::Device, layouts: &Layouts, count: u32) {
+    pub fn resize(&mut self, device: &wgpu::Device, layouts: &Layouts, count: u32) {
         if self.states.depth_or_array_layers() != array_layers(count) {
             self.states = states_texture(device, count);
             self.source = layouts.layers_group(device, &self.states);
         }
-        if self.map.texture().width() != side(count) {
+        if self.map.texture.width() != side(count) {
             self.map = self.map.resized(device, layouts, side(count));
+            self.group = self.map.group(device, layouts);
         }
     }
 
     /// Uploads the states of the octaves and records the pass.
-    pub fn record(
+    pub fn draw(
         &self,
         queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
@@ -244,12 +241,7 @@ impl Pass {
         };
         queue.write_texture(self.states.as_image_copy(), &bytes, layout, size);
         self.map
-            .record(encoder, shared, &self.pipeline, &self.source);
-    }
-
-    /// Bytes of its textures.
-    pub fn bytes(&self) -> u64 {
-        map::texture_bytes(&self.states) + map::texture_bytes(self.map.texture())
+            .record(encoder, shared, (0, &self.pipeline), &self.source);
     }
 }
 

@@ -1,4 +1,4 @@
-// The map of the lit method: light, opacity and shade of three layers at once. CPU part: lit_map.rs.
+// The map of the lit method: light, opacity and shade of three layers at once. CPU part: map.rs.
 override FIRST_LAYER: i32 = 0;
 
 struct LitTargets {

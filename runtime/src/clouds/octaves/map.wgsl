@@ -1,4 +1,4 @@
-// The map of the octaves method: every octave up-sampled, filtered, tiled and summed. CPU part: octaves_map.rs.
+// The map of the octaves method: every octave up-sampled, filtered, tiled and summed. CPU part: map.rs.
 
 // The four weights of the cubic B-spline between two texels.
 fn octaves_spline(t: vec2f) -> array<vec2f, 4> {

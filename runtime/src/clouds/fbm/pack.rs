@@ -24,7 +24,7 @@ use crate::geometry::part::Part;
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[],
-    wgsl: include_str!("fbm_pack.wgsl"),
+    wgsl: include_str!("pack.wgsl"),
 };
 
 /// How far the sun goes, in azimuth or elevation, before octaves are packed anew: 1/16 degree, in radians.

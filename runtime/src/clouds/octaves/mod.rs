@@ -3,7 +3,7 @@
 //! # Theory
 //! S. Guthikonda, A. Meena, D. Linder, S. Yi, "Realistic Real-Time Skies", University of Southern California,
 //! CS 580 final project. White noise, up-sampled and filtered, is summed over octaves into one texture
-//! ([`crate::clouds::octaves_map`]). `max(c - (1 - cover), 0)` opens the sky; `1 - (1 - sharpness)^(255 c)` gives clouds their
+//! ([`crate::clouds::octaves::map`]). `max(c - (1 - cover), 0)` opens the sky; `1 - (1 - sharpness)^(255 c)` gives clouds their
 //! edge; alpha follows density, so that several domes at different heights show through each other and move
 //! against each other (section "Unexpected and Unique Results").
 //!
@@ -23,10 +23,12 @@
 //! Two reads for the low dome, one each for the others, since opacity, relief and grey are in the map; a dome without cover costs nothing. Parallax needs the
 //! camera's place in metres ([`crate::Camera::position_m`]).
 
+pub mod coverage;
+pub mod map;
+
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat2, DVec2, Vec3};
 
-use crate::clouds::octaves_map;
 use crate::clouds::shared::{
     CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, closing, offset, radiance,
 };
@@ -132,7 +134,7 @@ const COLOUR_RANGE: f32 = 255.0;
 /// The method's share of the uniforms. `params` are in range; `sun_azimuth` is a unit vector (east, south).
 pub fn uniforms(params: &SkyParams, view: &CloudView, sun_azimuth: [f32; 2]) -> OctaveUniforms {
     let own = params.octaves;
-    let side = octaves_map::side(own.count);
+    let side = map::side(own.count);
     let low_tile = TILE[0] + (TILE[1] - TILE[0]) * f64::from(params.height);
     let tiles = [
         DVec2::splat(low_tile),
@@ -165,7 +167,7 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun_azimuth: [f32; 2]) -> 
     let [low, middle, high] = [0, 1, 2].map(dome);
     let step = (axes(0) * azimuth * RELIEF_STEP).as_vec2();
     let exponent = exponent(own.sharpness) * (1.0 + params.density);
-    let copies = octaves_map::copies(own.count);
+    let copies = map::copies(own.count);
     OctaveUniforms {
         low,
         middle,

@@ -1,0 +1,56 @@
+//! How much of the sky the packed method covers: its opacity is a function of photo, noise and detail at places that have nothing to do
+//! with each other.
+
+use welkin_pack::Image;
+
+use super::{EDGE, PackedUniforms, UPPER_OPACITY, UPPER_THRESHOLD};
+use crate::clouds::histogram::Histogram;
+use crate::clouds::shared::{before_softening, behind};
+use crate::geometry::math::smoothstep;
+
+/// How the texels of the packed texture are distributed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texels {
+    noise: Histogram,
+    detail: Histogram,
+    /// Photo and noise blended: line 14.
+    amount: Histogram,
+}
+
+impl Texels {
+    /// Counts those of level 0.
+    pub fn new(clouds: &Image) -> Texels {
+        let [photo, noise, detail] = [0, 1, 2].map(|c| Histogram::of(clouds.channel(c)));
+        Texels {
+            amount: Histogram::of_pairs(&photo, &noise, |photo, noise| {
+                photo + noise * (1.0 - photo)
+            }),
+            noise,
+            detail,
+        }
+    }
+
+    /// The share of places with more than this opacity, by the packed method.
+    pub(crate) fn covered(&self, packed: &PackedUniforms, opacity: f32) -> f32 {
+        let [cut, stretch, density, upper] = packed.shape;
+        let smooth = packed.levels[2];
+        let lower = |opacity: f32| {
+            if opacity < 0.0 {
+                return 1.0;
+            }
+            let alpha = before_softening(opacity, EDGE) / (stretch * (1.0 + 2.0 * density));
+            self.detail.mean(|detail| {
+                self.amount
+                    .above(cut + alpha / (detail + (1.0 - detail) * smooth))
+            })
+        };
+        if upper == 0.0 {
+            return lower(opacity);
+        }
+        self.noise.mean(|wisp| {
+            let veil = smoothstep(UPPER_THRESHOLD, 1.0, wisp);
+            let clear = 1.0 - upper * UPPER_OPACITY * veil;
+            lower(behind(opacity, clear))
+        })
+    }
+}

@@ -1,0 +1,110 @@
+//! Computes a frame's uniforms, once a frame, from pack, parameters, camera and seconds.
+
+use glam::Vec3;
+
+use crate::clear_sky::light::Light;
+use crate::clear_sky::{flares, galaxy, gradient, perez, skybox, stars, sun};
+use crate::clouds::shared::{self, CloudView};
+use crate::device::pipeline::Variant;
+use crate::frame::Uniforms;
+use crate::geometry::camera::{self, Camera};
+use crate::geometry::math::{finite, vec4};
+use crate::methods::MethodFrame;
+use crate::pack_data::PackData;
+use crate::params::{Method, SkyParams};
+use crate::tonemap;
+use crate::weather::{lightning, rain, rays};
+
+impl PackData {
+    /// The uniforms of one frame: a pure function. `step` is one step of the target's encoding.
+    ///
+    /// Parameters are clamped, seconds that are not finite are 0.
+    pub fn uniforms(
+        &self,
+        params: &SkyParams,
+        camera: &Camera,
+        seconds: f64,
+        step: f32,
+    ) -> Uniforms {
+        let whole = params.clamped();
+        let params = whole.dome();
+        let dome = params.method.clouds();
+        let light = Light::new(&self.sky, self.noon_elevation_rad, params.time);
+        let night = if params.stars { light.night } else { 0.0 };
+        let (rays, pixel_rad) = (camera.rays(), camera.pixel_rad());
+        let pixel = pixel_rad[0].max(pixel_rad[1]);
+        let view = CloudView {
+            texels: self.clouds_texels,
+            pixel_rad: pixel,
+            seconds: finite(seconds),
+            place_m: camera.position_m().as_dvec3(),
+        };
+        let clouds = shared::uniforms(&params, &light, self.clouds_texels);
+        let mut uniforms = Uniforms {
+            camera: camera::uniforms(camera),
+            clouds,
+            ..Uniforms::default()
+        };
+        let frame = MethodFrame {
+            params: &params,
+            whole: &whole,
+            view,
+            light,
+            flash: Vec3::ZERO,
+            pack: self,
+        };
+        for method in Method::DOMES {
+            method.clouds().write(&mut uniforms, &frame);
+        }
+        let sunlight = dome.sunlight(&uniforms);
+        uniforms.lightning = lightning::uniforms(&params, &view, &clouds, sunlight);
+        uniforms.rays = rays::uniforms(&params, &light, &clouds, &rays, pixel);
+        uniforms.rain = rain::uniforms(
+            &params,
+            &view,
+            &rays,
+            &clouds,
+            sunlight,
+            &uniforms.lightning,
+        );
+        let flash = Vec3::from_slice(&uniforms.lightning.light);
+        Method::Sprites
+            .clouds()
+            .write(&mut uniforms, &MethodFrame { flash, ..frame });
+
+        let shown = whole.method.clouds();
+        let closing = shown.closing(&whole, view.place_m.y as f32, self);
+        let overcast = vec4(shown.overcast(&uniforms, self), closing);
+        uniforms.sky = gradient::uniforms(&light, &self.sky, params.time, night, overcast);
+        uniforms.perez = perez::uniforms(&params.perez, params.sky, &light);
+        let luminary = dome.luminary(&light, &params);
+        uniforms.sun = sun::uniforms(&luminary, &rays, self.sun.0, self.sun.1, pixel, params.sun);
+        uniforms.stars = stars::uniforms(
+            self.stars,
+            &self.star_units,
+            pixel_rad,
+            night,
+            params.even_stars,
+            view.seconds,
+        );
+        let [_, noise, detail] = self.cloud_means;
+        uniforms.galaxy = galaxy::uniforms(night, [noise, detail], self.clouds_texels, pixel);
+        // Without a skybox the shader does not read one.
+        let (face, levels) = self.skybox.unwrap_or((1, 1));
+        uniforms.skybox = skybox::uniforms(params.skybox, face, levels, pixel);
+        uniforms.flares = flares::uniforms(&params, &light, &uniforms.camera, self.flares);
+        uniforms.tonemap = tonemap::uniforms(&params, step);
+        uniforms
+    }
+}
+
+impl Variant {
+    /// The least that draws a frame.
+    pub fn of(uniforms: &Uniforms) -> Variant {
+        Variant {
+            night: uniforms.sky.gradient[3] > 0.0,
+            upper_layer: uniforms.packed.shape[3] > 0.0,
+            weather: uniforms.rain.haze[3] > 0.0 || uniforms.lightning.light[1] > 0.0,
+        }
+    }
+}

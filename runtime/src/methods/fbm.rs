@@ -1,0 +1,83 @@
+//! The fbm method, as the runtime sees it.
+
+use glam::Vec3;
+use welkin_pack::Role;
+
+use super::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
+use crate::clouds::fbm::{self, coverage, map, pack};
+use crate::device::common::Common;
+use crate::device::layouts::Layouts;
+use crate::device::map::texture_bytes;
+use crate::frame::Uniforms;
+use crate::geometry::part::Part;
+use crate::pack_data::PackData;
+use crate::params::{Method, SkyParams};
+
+pub(super) struct Fbm;
+
+impl CloudMethod for Fbm {
+    fn role(&self) -> Role {
+        Role::Fbm
+    }
+
+    fn uploads(&self) -> bool {
+        true
+    }
+
+    fn parts(&self) -> &'static [Part] {
+        &[fbm::PART, map::PART, pack::PART]
+    }
+
+    fn own_layout<'a>(&self, layouts: &'a Layouts) -> Option<&'a wgpu::BindGroupLayout> {
+        Some(&layouts.texture)
+    }
+
+    fn map(
+        &self,
+        common: &Common,
+        module: &wgpu::ShaderModule,
+        _params: &SkyParams,
+    ) -> Option<Box<dyn MapPass>> {
+        let octaves = common.own_texture(Method::Fbm)?;
+        let pass = map::Pass::new(&common.device, module, &common.layouts, octaves);
+        Some(Box::new(pass))
+    }
+
+    fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
+        let (octaves, sun) = (&frame.pack.fbm, frame.light.sun_direction);
+        uniforms.fbm = fbm::uniforms(frame.params, &frame.view, octaves, sun);
+    }
+
+    fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
+        fbm::overcast(&uniforms.fbm, &uniforms.clouds)
+    }
+
+    fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32 {
+        coverage::covered(&shown.texels.fbm, &shown.uniforms.fbm, opacity)
+    }
+}
+
+impl MapPass for map::Pass {
+    fn record(
+        &mut self,
+        _queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        shared: &wgpu::BindGroup,
+        frame: &MapFrame<'_>,
+    ) {
+        let [x, y, ..] = frame.uniforms.fbm.step;
+        self.draw(encoder, shared, [x, y]);
+    }
+
+    fn group(&self) -> &wgpu::BindGroup {
+        &self.group
+    }
+
+    fn texture(&self) -> &wgpu::Texture {
+        &self.map.texture
+    }
+
+    fn bytes(&self) -> u64 {
+        texture_bytes(self.packing.texture()) + texture_bytes(&self.map.texture)
+    }
+}

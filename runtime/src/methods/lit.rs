@@ -1,0 +1,123 @@
+//! The lit method, as the runtime sees it.
+
+use glam::Vec3;
+use welkin_pack::Role;
+
+use super::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
+use crate::clear_sky::light::{Light, luminary};
+use crate::clouds::lit::{self, coverage, map, shadow};
+use crate::device::common::Common;
+use crate::device::layouts::Layouts;
+use crate::device::map::texture_bytes;
+use crate::frame::Uniforms;
+use crate::geometry::part::Part;
+use crate::pack_data::PackData;
+use crate::params::{Method, SkyParams};
+
+pub(super) struct Lit;
+
+impl CloudMethod for Lit {
+    fn role(&self) -> Role {
+        Role::Layers
+    }
+
+    fn uploads(&self) -> bool {
+        true
+    }
+
+    fn parts(&self) -> &'static [Part] {
+        &[lit::PART, map::PART, shadow::PART]
+    }
+
+    fn own_layout<'a>(&self, layouts: &'a Layouts) -> Option<&'a wgpu::BindGroupLayout> {
+        Some(&layouts.lit)
+    }
+
+    fn map(
+        &self,
+        common: &Common,
+        module: &wgpu::ShaderModule,
+        _params: &SkyParams,
+    ) -> Option<Box<dyn MapPass>> {
+        let layers = common.own_texture(Method::Lit)?;
+        Some(Box::new(Pass {
+            map: map::Pass::new(&common.device, module, &common.layouts, layers),
+            module: module.clone(),
+            shadow: None,
+        }))
+    }
+
+    fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
+        let params = frame.params;
+        uniforms.lit = lit::uniforms(params, &frame.view, &frame.light, &uniforms.clouds);
+        uniforms.shadow = shadow::uniforms(params, &frame.view, &uniforms.lit);
+    }
+
+    fn luminary(&self, light: &Light, params: &SkyParams) -> Light {
+        luminary(light, params.lit.moon)
+    }
+
+    fn sunlight(&self, uniforms: &Uniforms) -> Vec3 {
+        Vec3::from_slice(&uniforms.lit.light)
+    }
+
+    fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
+        lit::overcast(&uniforms.lit)
+    }
+
+    fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32 {
+        coverage::covered(&shown.uniforms.lit, opacity)
+    }
+}
+
+/// The map, and the cloud shadows that are drawn from it.
+#[derive(Debug)]
+struct Pass {
+    map: map::Pass,
+    module: wgpu::ShaderModule,
+    /// Made when it is first asked for.
+    shadow: Option<shadow::Pass>,
+}
+
+impl MapPass for Pass {
+    fn fit(&mut self, common: &Common, params: &SkyParams) {
+        if params.shadow_extent_m > 0.0 {
+            let new = || shadow::Pass::new(&common.device, &self.module, &common.layouts);
+            self.shadow.get_or_insert_with(new);
+        }
+    }
+
+    fn record(
+        &mut self,
+        _queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        shared: &wgpu::BindGroup,
+        frame: &MapFrame<'_>,
+    ) {
+        let count = frame.uniforms.lit.dome[2] as usize;
+        self.map.draw(encoder, shared, count);
+        if let Some(shadow) = self
+            .shadow
+            .as_ref()
+            .filter(|_| frame.params.shadow_extent_m > 0.0)
+        {
+            shadow.record(encoder, shared, &self.map.group);
+        }
+    }
+
+    fn group(&self) -> &wgpu::BindGroup {
+        &self.map.group
+    }
+
+    fn texture(&self) -> &wgpu::Texture {
+        &self.map.map.texture
+    }
+
+    fn shadow(&self) -> Option<&wgpu::Texture> {
+        self.shadow.as_ref().map(shadow::Pass::texture)
+    }
+
+    fn bytes(&self) -> u64 {
+        texture_bytes(self.texture()) + self.shadow().map_or(0, texture_bytes)
+    }
+}

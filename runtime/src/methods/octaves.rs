@@ -1,0 +1,83 @@
+//! The octaves method, as the runtime sees it.
+
+use glam::Vec3;
+use welkin_pack::Role;
+
+use super::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
+use crate::clouds::octaves::{self, coverage, map};
+use crate::device::common::Common;
+use crate::device::layouts::Layouts;
+use crate::device::map::texture_bytes;
+use crate::frame::Uniforms;
+use crate::geometry::part::Part;
+use crate::pack_data::PackData;
+use crate::params::SkyParams;
+
+pub(super) struct Octaves;
+
+impl CloudMethod for Octaves {
+    fn role(&self) -> Role {
+        Role::Octaves
+    }
+
+    fn parts(&self) -> &'static [Part] {
+        &[octaves::PART, map::PART]
+    }
+
+    fn own_layout<'a>(&self, layouts: &'a Layouts) -> Option<&'a wgpu::BindGroupLayout> {
+        Some(&layouts.texture)
+    }
+
+    fn map(
+        &self,
+        common: &Common,
+        module: &wgpu::ShaderModule,
+        params: &SkyParams,
+    ) -> Option<Box<dyn MapPass>> {
+        let (device, layouts) = (&common.device, &common.layouts);
+        let pass = map::Pass::new(device, module, layouts, params.octaves.count);
+        Some(Box::new(pass))
+    }
+
+    fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
+        let [east, south, ..] = uniforms.clouds.gradient;
+        uniforms.octaves = octaves::uniforms(frame.params, &frame.view, [east, south]);
+    }
+
+    fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
+        octaves::overcast(&uniforms.octaves, &uniforms.clouds)
+    }
+
+    fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32 {
+        coverage::covered(&shown.uniforms.octaves, opacity)
+    }
+}
+
+impl MapPass for map::Pass {
+    fn fit(&mut self, common: &Common, params: &SkyParams) {
+        self.resize(&common.device, &common.layouts, params.octaves.count);
+    }
+
+    fn record(
+        &mut self,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        shared: &wgpu::BindGroup,
+        frame: &MapFrame<'_>,
+    ) {
+        let states = frame.pack.octave_states(frame.params, frame.seconds);
+        self.draw(queue, encoder, shared, &states);
+    }
+
+    fn group(&self) -> &wgpu::BindGroup {
+        &self.group
+    }
+
+    fn texture(&self) -> &wgpu::Texture {
+        &self.map.texture
+    }
+
+    fn bytes(&self) -> u64 {
+        texture_bytes(&self.states) + texture_bytes(&self.map.texture)
+    }
+}

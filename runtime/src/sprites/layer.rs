@@ -1,0 +1,121 @@
+//! The clouds in space that are drawn over a dome: what a pack has of them, and what draws it once it is asked for.
+
+use glam::Vec3;
+use welkin_pack::{Field, Pack, Role};
+
+use super::frame::Frame;
+use super::outline::{Outline, outlines};
+use super::pass::Pass;
+use crate::device::common::Common;
+use crate::error::{SkyError, texture};
+use crate::params::{Method, SkyModel, SkyParams};
+
+/// The clouds in space of a sky.
+#[derive(Debug)]
+pub(crate) struct SpriteLayer {
+    field: Option<Field>,
+    outlines: Vec<Outline>,
+    pass: Option<Box<Pass>>,
+    /// Whether the prepared frame shows them.
+    is_shown: bool,
+}
+
+impl SpriteLayer {
+    /// Of a pack; without a field it never shows anything.
+    ///
+    /// # Errors
+    /// [`SkyError::MissingTexture`].
+    pub fn new(pack: &Pack) -> Result<SpriteLayer, SkyError> {
+        Ok(SpriteLayer {
+            field: pack.field().cloned(),
+            outlines: outlines(texture(pack, Role::Sprites)?),
+            pass: None,
+            is_shown: false,
+        })
+    }
+
+    /// Whether the pack has clouds in space.
+    pub fn has_field(&self) -> bool {
+        self.field.is_some()
+    }
+
+    /// Makes what draws them, if the parameters want them and pack and target allow them.
+    pub fn fit(&mut self, common: &Common, params: &SkyParams) {
+        let (Some(field), Some(atlas)) = (&self.field, common.own_texture(Method::Sprites)) else {
+            return;
+        };
+        if params.method != Method::Sprites || !common.blends {
+            return;
+        }
+        let new = || {
+            Pass::new(
+                common,
+                atlas,
+                field,
+                &self.outlines,
+                params.sprites.distance_m,
+            )
+        };
+        let pass = self.pass.get_or_insert_with(|| new().into());
+        pass.load(common, params.sky);
+    }
+
+    /// Computes a frame and records the pictures of the ring that it draws. Parameters are in range.
+    pub fn record(
+        &mut self,
+        common: &Common,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        shared: &wgpu::BindGroup,
+        frame: &Frame<'_>,
+    ) {
+        self.fit(common, frame.params);
+        let wanted = self
+            .pass
+            .as_mut()
+            .filter(|_| frame.params.method == Method::Sprites);
+        self.is_shown = wanted.is_some();
+        if let Some(pass) = wanted {
+            pass.record(common, queue, encoder, shared, frame);
+        }
+    }
+
+    /// The fraction of the sun's light that comes through to the viewer.
+    pub fn clear_towards_sun(&self, frame: &Frame<'_>, sun: Vec3) -> f32 {
+        let shown = self.shown();
+        shown.map_or(1.0, |pass| pass.clear_towards_sun(frame, sun))
+    }
+
+    /// Draws the recorded frame over the sky.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, sky: SkyModel) {
+        if let Some(shown) = self.shown() {
+            shown.draw(pass, sky);
+        }
+    }
+
+    /// Forgets what it knows of earlier frames: the next one is as that of a new sky.
+    pub fn forget(&mut self) {
+        if let Some(pass) = &mut self.pass {
+            pass.forget();
+        }
+    }
+
+    /// Sprites that the recorded frame draws, on the screen and into the ring.
+    pub fn drawn(&self) -> [u64; 2] {
+        self.shown().map_or([0; 2], Pass::drawn)
+    }
+
+    /// Bytes of the ring's pictures.
+    pub fn ring_bytes(&self) -> u64 {
+        self.pass.as_ref().map_or(0, |pass| pass.ring_bytes())
+    }
+
+    /// Bytes of the textures that are drawn.
+    pub fn bytes(&self) -> u64 {
+        self.pass.as_ref().map_or(0, |pass| pass.bytes())
+    }
+
+    fn shown(&self) -> Option<&Pass> {
+        self.pass.as_deref().filter(|_| self.is_shown)
+    }
+}
