@@ -137,7 +137,7 @@ test: gpu-tools window-tools desktop-tools node-tools ## Run every test, and for
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps $(WINDOW) --locked
 	$(CARGO) build --release --locked -p welkin-baker
 	WELKIN_RELEASE=$(CURDIR)/$(WELKIN) $(CARGO) test --workspace $(WINDOW) --locked -- --include-ignored
-	$(CARGO) test --release --locked -p welkin-baker --test legal --test sound
+	$(CARGO) test --release --locked -p welkin-baker --test recipes
 	if $(CARGO) tree --locked -e normal,build -p welkin-baker | grep -q ' wgpu '; then echo "the baker must not need wgpu"; exit 1; fi
 	$(MAKE) web-test
 
@@ -147,7 +147,7 @@ web-test: web gpu-tools browser ## Test the page: its bakes, and its pictures in
 	cd web && WELKIN_VIEW=$(CURDIR)/target/debug/welkin-view node --test --test-concurrency=1 test/*.test.mjs
 
 recipes: ## Bake RECIPES random recipes and the default one with SEEDS seeds, and check them all
-	WELKIN_RECIPES=$(RECIPES) WELKIN_SEEDS=$(SEEDS) $(CARGO) test --release --locked -p welkin-baker --test legal -- --nocapture
+	WELKIN_RECIPES=$(RECIPES) WELKIN_SEEDS=$(SEEDS) $(CARGO) test --release --locked -p welkin-baker --test recipes -- legal:: --nocapture
 
 check: ## Compile and lint, without running anything
 	$(CARGO) fmt --all --check

@@ -24,7 +24,7 @@ pub fn pack() -> &'static Path {
 
 /// Bakes a recipe into a folder of this test program; its pictures are in `base`.
 pub fn bake(name: &str, recipe: &str, base: Option<&Path>) -> PathBuf {
-    let name = format!("{}-{name}", env!("CARGO_CRATE_NAME"));
+    let name = format!("view-{}-{name}", env!("CARGO_CRATE_NAME"));
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let resolved = Recipe::parse("small", recipe)
         .and_then(|r| r.resolve(None))

@@ -1,0 +1,26 @@
+//! Whole-path tests on a GPU, software Vulkan will do: pictures, their twins, and what is always true of them.
+//!
+//! A program beside `it`, which runs where there is no Vulkan driver.
+
+mod backends;
+mod cover;
+mod depth;
+mod dome;
+mod flares;
+mod formation;
+mod gradient;
+mod horizon;
+mod lit;
+mod maps;
+mod motion;
+mod oktas;
+mod parallax;
+mod pictures;
+mod purity;
+mod robust;
+mod shadows;
+mod skybox;
+mod sprites;
+mod stars;
+mod twins;
+mod weather;

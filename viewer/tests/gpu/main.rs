@@ -1,0 +1,9 @@
+//! The program `welkin-view`, run as its users run it, on whatever adapter there is (software Vulkan will do).
+
+mod bench;
+#[path = "../common/mod.rs"]
+mod common;
+mod environment;
+mod export;
+mod methods;
+mod program;
