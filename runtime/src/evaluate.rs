@@ -3,16 +3,21 @@
 use glam::Vec3;
 
 use crate::clear_sky::light::Light;
-use crate::clear_sky::{flares, galaxy, gradient, perez, skybox, stars, sun};
+#[cfg(feature = "perez")]
+use crate::clear_sky::perez;
+use crate::clear_sky::{flares, galaxy, gradient, skybox, stars, sun};
 use crate::clouds::shared::{self, CloudView};
 use crate::device::pipeline::Variant;
 use crate::frame::Uniforms;
+#[cfg(feature = "weather")]
+use crate::geometry::camera::Rays;
 use crate::geometry::camera::{self, Camera};
 use crate::geometry::math::{finite, vec4};
 use crate::methods::MethodFrame;
 use crate::pack_data::PackData;
 use crate::params::{Method, SkyParams};
 use crate::tonemap;
+#[cfg(feature = "weather")]
 use crate::weather::{lightning, rain, rays};
 
 impl PackData {
@@ -56,18 +61,11 @@ impl PackData {
         for method in Method::DOMES {
             method.clouds().write(&mut uniforms, &frame);
         }
-        let sunlight = dome.sunlight(&uniforms);
-        uniforms.lightning = lightning::uniforms(&params, &view, &clouds, sunlight);
-        uniforms.rays = rays::uniforms(&params, &light, &clouds, &rays, pixel);
-        uniforms.rain = rain::uniforms(
-            &params,
-            &view,
-            &rays,
-            &clouds,
-            sunlight,
-            &uniforms.lightning,
-        );
-        let flash = Vec3::from_slice(&uniforms.lightning.light);
+        #[cfg(feature = "weather")]
+        let flash = write_weather(&mut uniforms, &frame, &rays);
+        #[cfg(not(feature = "weather"))]
+        let flash = Vec3::ZERO;
+        #[cfg(feature = "sprites")]
         Method::Sprites
             .clouds()
             .write(&mut uniforms, &MethodFrame { flash, ..frame });
@@ -76,7 +74,10 @@ impl PackData {
         let closing = shown.closing(&whole, view.place_m.y as f32, self);
         let overcast = vec4(shown.overcast(&uniforms, self), closing);
         uniforms.sky = gradient::uniforms(&light, &self.sky, params.time, night, overcast);
-        uniforms.perez = perez::uniforms(&params.perez, params.sky, &light);
+        #[cfg(feature = "perez")]
+        {
+            uniforms.perez = perez::uniforms(&params.perez, params.sky, &light);
+        }
         let luminary = dome.luminary(&light, &params);
         uniforms.sun = sun::uniforms(&luminary, &rays, self.sun.0, self.sun.1, pixel, params.sun);
         uniforms.stars = stars::uniforms(
@@ -98,13 +99,28 @@ impl PackData {
     }
 }
 
+/// Writes what weather needs, and gives the light of a flash.
+#[cfg(feature = "weather")]
+fn write_weather(uniforms: &mut Uniforms, frame: &MethodFrame<'_>, screen: &Rays) -> Vec3 {
+    let (params, view, clouds) = (frame.params, &frame.view, &uniforms.clouds);
+    let sunlight = params.method.clouds().sunlight(uniforms);
+    let flash = lightning::uniforms(params, view, clouds, sunlight);
+    uniforms.rain = rain::uniforms(params, view, screen, clouds, sunlight, &flash);
+    uniforms.rays = rays::uniforms(params, &frame.light, clouds, screen, view.pixel_rad);
+    uniforms.lightning = flash;
+    Vec3::from_slice(&flash.light)
+}
+
 impl Variant {
     /// The least that draws a frame.
     pub fn of(uniforms: &Uniforms) -> Variant {
         Variant {
             night: uniforms.sky.gradient[3] > 0.0,
             upper_layer: uniforms.packed.shape[3] > 0.0,
+            #[cfg(feature = "weather")]
             weather: uniforms.rain.haze[3] > 0.0 || uniforms.lightning.light[1] > 0.0,
+            #[cfg(not(feature = "weather"))]
+            weather: false,
         }
     }
 }

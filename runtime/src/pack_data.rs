@@ -1,13 +1,19 @@
 //! What the CPU keeps of a pack between frames.
 
+#[cfg(feature = "sprites")]
 use welkin_pack::field::Hour;
 use welkin_pack::{Image, Pack, Role, StarTexel, Texture};
 
+#[cfg(feature = "fbm")]
 use crate::clouds::fbm::map::Octaves;
+#[cfg(feature = "octaves")]
 use crate::clouds::octaves;
 use crate::error::{SkyError, texture};
+#[cfg(feature = "octaves")]
 use crate::geometry::math::finite;
+#[cfg(feature = "octaves")]
 use crate::params::SkyParams;
+#[cfg(feature = "sprites")]
 use crate::sprites;
 
 /// What the CPU keeps of a pack between frames.
@@ -32,14 +38,19 @@ pub struct PackData {
     /// Texels a side of a face and levels of the skybox, if there is one.
     pub skybox: Option<(u32, usize)>,
     /// Seed of the pack.
+    #[cfg(feature = "octaves")]
     pub seed: u64,
     /// Texels of the white noise, 32x32 of four bytes.
+    #[cfg(feature = "octaves")]
     pub noise: Vec<u8>,
     /// The octaves of smooth noise.
+    #[cfg(feature = "fbm")]
     pub fbm: Octaves,
     /// Light on the sprites' clouds over the day; empty without a field.
+    #[cfg(feature = "sprites")]
     pub hours: Vec<Hour>,
     /// The lowest base and the highest top of the sprites' clouds, in metres; 0 without a field.
+    #[cfg(feature = "sprites")]
     pub cloud_heights_m: [f32; 2],
 }
 
@@ -60,15 +71,21 @@ impl PackData {
             sun: side(texture(pack, Role::Sun)?),
             flares: texture(pack, Role::Flares)?.width,
             skybox: pack.texture(Role::Skybox).map(side),
+            #[cfg(feature = "octaves")]
             seed: pack.manifest().seed,
+            #[cfg(feature = "octaves")]
             noise: texture(pack, Role::Octaves)?.levels.concat(),
+            #[cfg(feature = "fbm")]
             fbm: Octaves::new(texture(pack, Role::Fbm)?),
+            #[cfg(feature = "sprites")]
             hours: pack.field().map_or(Vec::new(), |field| field.hours.clone()),
+            #[cfg(feature = "sprites")]
             cloud_heights_m: pack.field().map_or([0.0; 2], sprites::heights_m),
         })
     }
 
     /// The states of the octaves method's noise at a moment: see [`octaves::map::states`].
+    #[cfg(feature = "octaves")]
     pub fn octave_states(&self, params: &SkyParams, seconds: f64) -> Vec<f32> {
         let seconds = finite(seconds);
         octaves::map::states(&self.noise, self.seed, &params.clamped(), seconds)

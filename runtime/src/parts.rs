@@ -9,7 +9,6 @@ use crate::device::map;
 use crate::device::shader::{Build, compose};
 use crate::geometry::part::{Part, Value};
 use crate::geometry::{camera, dome};
-#[cfg(feature = "perez")]
 use crate::params::SkyModel;
 #[cfg(feature = "weather")]
 use crate::weather::{self, lightning, rain, rays};
@@ -36,22 +35,23 @@ const COMMON: [Part; 14] = [
 /// What a dome with weather needs.
 #[cfg(feature = "weather")]
 const WEATHER: &[Part] = &[lightning::PART, rays::PART, rain::PART, weather::PART];
+#[cfg(not(feature = "weather"))]
+const WEATHER: &[Part] = &[];
 
 /// The text of the shader of a dome: the parts that it needs, and no other.
 pub fn text(build: Build, dome: Dome) -> String {
     let clouds = dome.method.clouds();
-    let ask_opaque = clouds.is_often_opaque();
-    let mut parts: Vec<&Part> = COMMON.iter().chain(clouds.parts()).collect();
-    #[cfg(feature = "perez")]
-    if dome.sky == SkyModel::Perez {
-        parts.push(&perez::PART);
-    }
-    let mut weather = "radiance";
-    #[cfg(feature = "weather")]
-    if dome.weather {
-        parts.extend(WEATHER);
-        weather = "weather_over(radiance, direction, clouds)";
-    }
+    let sky: &[Part] = match dome.sky {
+        SkyModel::Gradient => &[],
+        #[cfg(feature = "perez")]
+        SkyModel::Perez => &[perez::PART],
+    };
+    let (weather_parts, weather) = match dome.weather && !WEATHER.is_empty() {
+        true => (WEATHER, "weather_over(radiance, direction, clouds)"),
+        false => (&[][..], "radiance"),
+    };
+    let parts = COMMON.iter().chain(clouds.parts());
+    let parts = parts.chain(sky).chain(weather_parts);
     let (method, sky) = (dome.method.name(), dome.sky.name());
     let calls = [
         // Radiance and opacity of the clouds along a unit direction above the horizon, for a pixel that is so much narrower than one in
@@ -70,8 +70,8 @@ pub fn text(build: Build, dome: Dome) -> String {
             weather.to_string(),
         ),
     ];
-    let own = [("ASK_OPAQUE", Value::Bool(ask_opaque))];
-    compose(build, &own, parts.into_iter(), &calls)
+    let own = [("ASK_OPAQUE", Value::Bool(clouds.is_often_opaque()))];
+    compose(build, &own, parts, &calls)
 }
 
 /// What a pixel of the sky is put together from.
@@ -105,7 +105,7 @@ mod tests {
     use crate::device::config::Output;
     use crate::frame::Uniforms;
     use crate::geometry::camera::CameraUniforms;
-    use crate::params::{Method, SkyModel};
+    use crate::params::Method;
     use crate::sprites::SpriteUniforms;
     use crate::sprites::pipelines::SpriteBlock;
     use crate::sprites::ring::{RingSet, RingUniforms, SpriteView};

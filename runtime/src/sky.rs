@@ -221,25 +221,10 @@ impl Sky {
     ) {
         let whole = params.clamped();
         let params = whole.dome();
-        let mut uniforms = self.pack_data.uniforms(&whole, camera, seconds, self.step);
+        let uniforms = self.pack_data.uniforms(&whole, camera, seconds, self.step);
         let seconds = finite(seconds);
         #[cfg(feature = "sprites")]
-        {
-            let (screen, look) = (uniforms.camera, uniforms.sprites);
-            let frame = sprites::frame::Frame {
-                params: &whole,
-                camera,
-                seconds,
-                screen: &screen,
-                look: &look,
-            };
-            self.sprites
-                .record(&self.common, queue, encoder, &self.shared, &frame);
-            if uniforms.flares.light[0] > 0.0 {
-                let sun = glam::Vec3::from_slice(&uniforms.sky.sun);
-                uniforms.flares.light[0] *= self.sprites.clear_towards_sun(&frame, sun);
-            }
-        }
+        let uniforms = self.record_sprites(queue, encoder, &whole, camera, seconds, uniforms);
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&uniforms));
         let program = fitting(&mut self.programs, &self.common, &params);
         if let Some(map) = &mut program.map {
@@ -271,6 +256,33 @@ impl Sky {
             #[cfg(feature = "lit")]
             shadow: shadow::Area::of(&params, camera.position_m().as_dvec3()),
         });
+    }
+
+    /// Records what sprites draw off screen, and gives uniforms with the flare that they leave.
+    #[cfg(feature = "sprites")]
+    fn record_sprites(
+        &mut self,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        params: &SkyParams,
+        camera: &Camera,
+        seconds: f64,
+        mut uniforms: Uniforms,
+    ) -> Uniforms {
+        let frame = sprites::frame::Frame {
+            params,
+            camera,
+            seconds,
+            screen: &{ uniforms.camera },
+            look: &{ uniforms.sprites },
+        };
+        let (common, shared) = (&self.common, &self.shared);
+        self.sprites.record(common, queue, encoder, shared, &frame);
+        if uniforms.flares.light[0] > 0.0 {
+            let sun = glam::Vec3::from_slice(&uniforms.sky.sun);
+            uniforms.flares.light[0] *= self.sprites.clear_towards_sun(&frame, sun);
+        }
+        uniforms
     }
 
     /// Draws the prepared frame into a pass whose attachments are as the configuration said.

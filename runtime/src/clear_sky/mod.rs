@@ -1,10 +1,12 @@
 //! The sky without clouds, by day and by night.
 
+#[cfg(feature = "perez")]
 pub mod cie;
 pub mod flares;
 pub mod galaxy;
 pub mod gradient;
 pub mod light;
+#[cfg(feature = "perez")]
 pub mod perez;
 pub mod skybox;
 pub mod stars;

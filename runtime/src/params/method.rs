@@ -7,35 +7,58 @@ pub enum Method {
     #[default]
     Packed,
     /// Octaves of white noise that form anew: S. Guthikonda et al., USC. See [`crate::clouds::octaves`].
+    #[cfg(feature = "octaves")]
     Octaves,
     /// Octaves of smooth noise that drift, lit by a short ray march: I. Quilez, 2005. See [`crate::clouds::fbm`].
+    #[cfg(feature = "fbm")]
     Fbm,
     /// Layers with normals, lit by sun and moon: K. Mukhina, A. Bezgodov, 2015. See [`crate::clouds::lit`].
+    #[cfg(feature = "lit")]
     Lit,
     /// Clouds in space, made of sprites: N. Wang, 2004. See [`crate::sprites`].
+    #[cfg(feature = "sprites")]
     Sprites,
 }
 
 impl Method {
     /// Every method, in the order of their numbers.
-    pub const ALL: [Method; 5] = [
+    pub const ALL: [Method; Method::DOMES.len() + cfg!(feature = "sprites") as usize] = [
         Method::Packed,
+        #[cfg(feature = "octaves")]
         Method::Octaves,
+        #[cfg(feature = "fbm")]
         Method::Fbm,
+        #[cfg(feature = "lit")]
         Method::Lit,
+        #[cfg(feature = "sprites")]
         Method::Sprites,
     ];
 
     /// The methods whose clouds are on a dome about the viewer, in the order of their numbers.
-    pub const DOMES: [Method; 4] = [Method::Packed, Method::Octaves, Method::Fbm, Method::Lit];
+    pub const DOMES: [Method;
+        1 + cfg!(feature = "octaves") as usize
+            + cfg!(feature = "fbm") as usize
+            + cfg!(feature = "lit") as usize] = [
+        Method::Packed,
+        #[cfg(feature = "octaves")]
+        Method::Octaves,
+        #[cfg(feature = "fbm")]
+        Method::Fbm,
+        #[cfg(feature = "lit")]
+        Method::Lit,
+    ];
 
     /// The name on command lines and in settings.
     pub const fn name(self) -> &'static str {
         match self {
             Method::Packed => "packed",
+            #[cfg(feature = "octaves")]
             Method::Octaves => "octaves",
+            #[cfg(feature = "fbm")]
             Method::Fbm => "fbm",
+            #[cfg(feature = "lit")]
             Method::Lit => "lit",
+            #[cfg(feature = "sprites")]
             Method::Sprites => "sprites",
         }
     }
@@ -48,17 +71,23 @@ pub enum SkyModel {
     #[default]
     Gradient,
     /// The distribution of Perez and others, in colour, as bright as the gradient. See [`crate::clear_sky::perez`].
+    #[cfg(feature = "perez")]
     Perez,
 }
 
 impl SkyModel {
     /// Every model, in the order of their numbers.
-    pub const ALL: [SkyModel; 2] = [SkyModel::Gradient, SkyModel::Perez];
+    pub const ALL: [SkyModel; 1 + cfg!(feature = "perez") as usize] = [
+        SkyModel::Gradient,
+        #[cfg(feature = "perez")]
+        SkyModel::Perez,
+    ];
 
     /// The name on command lines and in settings.
     pub const fn name(self) -> &'static str {
         match self {
             SkyModel::Gradient => "gradient",
+            #[cfg(feature = "perez")]
             SkyModel::Perez => "perez",
         }
     }

@@ -151,14 +151,15 @@ impl SkyParams {
 
     /// The parameters of the dome: those of the method behind the sprites, or these themselves.
     pub(crate) fn dome(self) -> SkyParams {
-        if self.method != Method::Sprites {
-            return self;
+        #[cfg(feature = "sprites")]
+        if self.method == Method::Sprites {
+            return SkyParams {
+                method: self.sprites.behind,
+                cover: self.sprites.behind_cover,
+                ..self
+            };
         }
-        SkyParams {
-            method: self.sprites.behind,
-            cover: self.sprites.behind_cover,
-            ..self
-        }
+        self
     }
 
     /// The same parameters, all in their ranges.

@@ -24,7 +24,10 @@ pub struct SpriteParams {
 impl Default for SpriteParams {
     fn default() -> SpriteParams {
         SpriteParams {
+            #[cfg(feature = "sprites")]
             behind: Method::Sprites,
+            #[cfg(not(feature = "sprites"))]
+            behind: Method::Packed,
             behind_cover: 0.0,
             distance_m: 30_000.0,
             ring_radius_m: 12_000.0,
