@@ -5,12 +5,11 @@ use std::path::Path;
 
 use welkin_pack::{Field, Format, Image, Pack, PackInfo, Role, Source};
 
-use crate::clouds::{self, photo, source as photo_source};
+use crate::clouds::{self, source as photo_source};
 use crate::error::BakeError;
 use crate::inputs::{Inputs, Reader};
-use crate::load;
 use crate::notice::Notice;
-use crate::settings::{FieldSettings, PhotoSettings, Resolved, SkyboxSettings, SpritesSettings};
+use crate::settings::{FieldSettings, Resolved, SkyboxSettings, SpritesSettings};
 use crate::{fbm, field, flares, galaxy, layers, octaves, sky, skybox, sprites, stars, sun};
 
 /// How far a bake is.
@@ -104,21 +103,6 @@ pub fn sources(
     let sources = make(resolved, &reader, &steps)?;
     steps.begin("done", total)?;
     Ok(sources)
-}
-
-/// A photograph made into a seamless cloud channel: one channel, `settings.size` texels a side, 0..1.
-///
-/// `file_name` names the bytes in errors.
-///
-/// # Errors
-/// [`BakeError::Decode`] or [`BakeError::Photo`].
-pub fn photo_channel(
-    image_bytes: &[u8],
-    file_name: &str,
-    settings: &PhotoSettings,
-) -> Result<Image, BakeError> {
-    let picture = load::decode(image_bytes, file_name)?;
-    photo::channel(&picture, file_name, settings)
 }
 
 /// The six faces of a skybox, +X, -X, +Y, -Y, +Z, -Z, as a cube texture has them: radiance times cover (red,

@@ -164,3 +164,43 @@ fn told(faults: &[Fault]) -> String {
     });
     lines.collect::<Vec<String>>().join(", ")
 }
+
+/// An error about the size of a picture.
+pub(crate) fn unfit_size(file: &str, [width, height]: [u32; 2], expected: String) -> BakeError {
+    unfit(file, "size", format!("{width}x{height}"), expected)
+}
+
+/// An error about what a picture is.
+pub(crate) fn unfit(
+    file: &str,
+    key: &'static str,
+    found: impl ToString,
+    expected: impl ToString,
+) -> BakeError {
+    BakeError::Photo {
+        file: file.to_string(),
+        key,
+        found: found.to_string(),
+        expected: expected.to_string(),
+    }
+}
+
+/// Says that a file has more bytes than are read.
+pub(crate) fn too_long(file: &str, most_bytes: u64) -> BakeError {
+    let most = most_bytes >> 20;
+    let (found, expected) = (
+        format!("over {most} MiB"),
+        format!("at most {most} MiB; save it smaller"),
+    );
+    unfit(file, "length", found, expected)
+}
+
+/// An error about what is in a model.
+pub(crate) fn model_error(file: &str, key: &str, found: String, expected: &str) -> BakeError {
+    BakeError::Model {
+        file: file.to_string(),
+        key: key.to_string(),
+        found,
+        expected: expected.to_string(),
+    }
+}

@@ -19,6 +19,7 @@ pub(crate) mod boxes;
 mod cloud;
 mod clumps;
 mod cull;
+mod grid;
 mod ground;
 pub(crate) mod kinds;
 pub(crate) mod light;
@@ -28,11 +29,3 @@ mod place;
 mod spread;
 
 pub(crate) use maker::{field, files};
-
-/// The grid that everything stands on, in steps a metre.
-const STEPS_A_M: f32 = 8.0;
-
-/// A length or a coordinate on the grid.
-fn snapped(metres: f32) -> f32 {
-    libm::roundf(metres * STEPS_A_M) / STEPS_A_M
-}

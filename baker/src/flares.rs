@@ -102,16 +102,15 @@ struct Rays {
 impl Rays {
     /// Directions are even but for a fifth of the way to the next.
     fn draw(&self, stream: &mut Stream) -> Vec<Ray> {
-        let mut between = |[low, high]: [f32; 2]| low + (high - low) * stream.unit() as f32;
         (0..self.count)
             .map(|i| {
-                let turn = (i as f32 + between([-0.2, 0.2])) / self.count as f32;
+                let turn = (i as f32 + stream.between([-0.2, 0.2])) / self.count as f32;
                 let angle = std::f32::consts::TAU * turn;
                 Ray {
                     direction: [libm::cosf(angle), libm::sinf(angle)],
-                    length: between(self.lengths),
+                    length: stream.between(self.lengths),
                     half_width: self.half_width,
-                    strength: between(self.strengths),
+                    strength: stream.between(self.strengths),
                 }
             })
             .collect()

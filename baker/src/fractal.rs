@@ -32,6 +32,15 @@ pub(crate) struct Octaves {
     pub gain: f64,
 }
 
+impl Octaves {
+    pub(crate) fn new(count: u32, gain: f32) -> Octaves {
+        Octaves {
+            count,
+            gain: f64::from(gain),
+        }
+    }
+}
+
 impl Fractal {
     /// `cells` are the first octave's along u and along v, `size` the texels a side.
     pub(crate) fn new(

@@ -1,6 +1,6 @@
 //! Doors for the fuzz targets (`fuzz/`), which see the crate from outside. Not part of its interface.
 
-use crate::error::BakeError;
+use crate::error::{BakeError, unfit_size};
 use crate::field::model;
 use crate::inputs::Picture;
 use crate::load;
@@ -13,7 +13,7 @@ fn fits(width: u32, height: u32) -> Result<(), BakeError> {
         return Ok(());
     }
     let expected = format!("at most {MAX_SIDE} texels a side");
-    Err(load::unfit_size("fuzz", [width, height], expected))
+    Err(unfit_size("fuzz", [width, height], expected))
 }
 
 /// Decodes a photograph of clouds.

@@ -8,8 +8,7 @@ use std::path::{Path, PathBuf};
 
 use welkin_pack::manifest::Input;
 
-use crate::error::BakeError;
-use crate::load::unfit;
+use crate::error::{BakeError, too_long};
 
 /// Where the files that a recipe names come from.
 #[derive(Clone, Copy, Debug)]
@@ -172,16 +171,6 @@ fn unreadable(file: &str, key: &str, source: io::Error) -> BakeError {
         key: key.to_string(),
         source,
     }
-}
-
-/// Says that a file has more bytes than are read.
-pub(crate) fn too_long(file: &str, most_bytes: u64) -> BakeError {
-    let most = most_bytes >> 20;
-    let (found, expected) = (
-        format!("over {most} MiB"),
-        format!("at most {most} MiB; save it smaller"),
-    );
-    unfit(file, "length", found, expected)
 }
 
 #[cfg(test)]

@@ -19,7 +19,6 @@ mod stratocumulus;
 use welkin_pack::{Image, LayerKind};
 
 use crate::filter;
-use crate::fractal::Octaves;
 use crate::settings::{LayerSettings, LayersSettings};
 use crate::stream::Stream;
 
@@ -48,13 +47,6 @@ fn density(kind: LayerKind, settings: &LayerSettings, size: u32, stream: &mut St
     };
     filter::calibrate(&mut density, 0.0, OUTLIER, kind.mean_density());
     density
-}
-
-fn octaves(settings: &LayerSettings) -> Octaves {
-    Octaves {
-        count: settings.octaves,
-        gain: f64::from(settings.gain),
-    }
 }
 
 /// Normal, density and rank. `relief` is the root mean square slope that the surface gets.

@@ -47,14 +47,12 @@ mod stars;
 mod stream;
 mod sun;
 
-pub use bake::{
-    Progress, bake, bake_from, cloud_field, photo_channel, skybox_faces, sources, sprite_sheet,
-};
-pub use clouds::photo::BUILT_IN_NAME as BUILT_IN_PHOTO;
+pub use bake::{Progress, bake, bake_from, cloud_field, skybox_faces, sources, sprite_sheet};
+pub use clouds::photo::{BUILT_IN_NAME as BUILT_IN_PHOTO, photo_channel};
 pub use error::{BakeError, Fault, RecipeError};
 pub use field::model::cloud_model;
 pub use inputs::Inputs;
-pub use load::{TextureFile, decode_texture, read_photo};
+pub use load::{MAX_FILE_BYTES, TextureFile, decode_texture, read_photo};
 pub use notice::{Clipped, Notice};
 pub use rebake::{REBAKE, RebakeError, rebake};
 pub use recipe::{DEFAULT_RECIPE, Recipe};

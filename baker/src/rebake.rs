@@ -2,12 +2,13 @@
 
 mod clouds;
 mod entries;
+mod finding;
 mod texels;
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use welkin_pack::check::{Examined, Finding, Outcome, Rule, Severity};
+use welkin_pack::check::{Examined, Finding, Outcome, Severity};
 use welkin_pack::manifest::{Input, MANIFEST_FILE};
 use welkin_pack::{Manifest, Pack};
 
@@ -16,12 +17,8 @@ use crate::error::BakeError;
 use crate::inputs::Inputs;
 use crate::recipe::Recipe;
 
-/// The rule of [`rebake`]'s findings.
-pub const REBAKE: Rule = Rule {
-    id: "rebake",
-    severity: Severity::Error,
-    asks: "Baking the recipe of the manifest anew gives the same manifest, texels and clouds.",
-};
+pub use finding::REBAKE;
+use finding::finding;
 
 /// Why a pack could not be baked anew.
 #[derive(Debug, thiserror::Error)]
@@ -172,34 +169,4 @@ fn excuse(finding: &mut Finding, baker: &str) {
             "; baked by {baker}, compared with {BAKER}: versions may bake different bytes, so this is no proof of forgery"
         );
     }
-}
-
-fn finding(subject: &str, outcome: Outcome, figure: Option<f64>, note: String) -> Finding {
-    let expected = match figure {
-        Some(_) => "0 differences".to_string(),
-        None => String::new(),
-    };
-    Finding {
-        rule: REBAKE.id,
-        severity: REBAKE.severity,
-        subject: subject.to_string(),
-        outcome,
-        figure,
-        expected,
-        note,
-    }
-}
-
-/// A finding that counts differences; `first` tells where the first is.
-fn counted(subject: &str, differences: usize, first: Option<String>) -> Finding {
-    let outcome = match differences {
-        0 => Outcome::Passed,
-        _ => Outcome::Failed,
-    };
-    let note = first.unwrap_or_default();
-    finding(subject, outcome, Some(differences as f64), note)
-}
-
-fn skipped(subject: &str, why: &str) -> Finding {
-    finding(subject, Outcome::Skipped, None, why.to_string())
 }

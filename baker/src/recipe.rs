@@ -3,18 +3,15 @@
 //! Scalars are kept as whatever TOML value stands there, with its place in the text; `resolve.rs`
 //! checks types and ranges together, so that both kinds of mistake are told in one form.
 
-mod field;
 mod kinds;
+pub(crate) mod tables;
 
 use std::ops::Range;
 
-use serde::Deserialize;
-use toml::{Spanned, Value};
-
 use crate::error::RecipeError;
 
-pub(crate) use field::{BoxTable, CloudLayer, FieldTable, HourTable, Model};
 use kinds::WrongKind;
+use tables::Tables;
 
 /// The recipe that is used when none is given; it spells out every default.
 pub const DEFAULT_RECIPE: &str = include_str!("../../assets-src/recipes/default.toml");
@@ -22,163 +19,12 @@ pub const DEFAULT_RECIPE: &str = include_str!("../../assets-src/recipes/default.
 /// The name that errors give the built-in recipe.
 const BUILT_IN: &str = "built-in recipe";
 
-/// A value that may be left out, with its place in the text.
-pub(crate) type Entry = Option<Spanned<Value>>;
-
 /// A parsed recipe: known keys only, nothing checked yet.
 #[derive(Clone, Debug)]
 pub struct Recipe {
     pub(crate) file: String,
     pub(crate) text: String,
     pub(crate) tables: Tables,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Tables {
-    pub name: Entry,
-    pub seed: Entry,
-    pub clouds: Clouds,
-    pub stars: Stars,
-    pub galaxy: Galaxy,
-    pub sky: Sky,
-    pub sun: Sun,
-    pub fbm: Fbm,
-    pub flares: Flares,
-    pub layers: Layers,
-    pub sprites: Sprites,
-    pub skybox: Option<Spanned<Skybox>>,
-    pub field: Option<Spanned<FieldTable>>,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Clouds {
-    pub size: Entry,
-    pub format: Entry,
-    pub photo: Photo,
-    pub noise: Fractal,
-    pub detail: Fractal,
-    pub gradient: Gradient,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Photo {
-    pub file: Entry,
-    pub mean: Entry,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Fractal {
-    pub cells: Entry,
-    pub octaves: Entry,
-    pub gain: Entry,
-    pub mean: Entry,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Gradient {
-    pub power: Entry,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Stars {
-    pub size: Entry,
-    pub count: Entry,
-    pub magnitudes: Entry,
-    pub brightest: Entry,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Galaxy {
-    pub size: Entry,
-    pub tilt_deg: Entry,
-    pub azimuth_deg: Entry,
-    pub dust: Entry,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Sky {
-    pub width: Entry,
-    pub height: Entry,
-    pub haze: Entry,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Sun {
-    pub size: Entry,
-    pub noon_elevation_deg: Entry,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Fbm {
-    pub size: Entry,
-    pub octaves: Entry,
-    pub cells: Entry,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Flares {
-    pub size: Entry,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Layers {
-    pub size: Entry,
-    pub stratocumulus: Layer,
-    pub cumulus: Layer,
-    pub cirrus: Layer,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Layer {
-    pub cells: Entry,
-    pub octaves: Entry,
-    pub gain: Entry,
-    pub relief: Entry,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Sprites {
-    pub size: Entry,
-    pub file: Entry,
-    pub pictures: Option<Spanned<Vec<Spanned<Value>>>>,
-    pub contrast: Entry,
-    pub detail: Entry,
-    pub softness: Entry,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Skybox {
-    pub file: Entry,
-    pub faces: Option<Spanned<Faces>>,
-    pub size: Entry,
-    pub gain: Entry,
-    pub azimuth_deg: Entry,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-pub(crate) struct Faces {
-    pub east: Entry,
-    pub west: Entry,
-    pub up: Entry,
-    pub down: Entry,
-    pub south: Entry,
-    pub north: Entry,
 }
 
 impl Recipe {

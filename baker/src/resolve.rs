@@ -12,7 +12,8 @@ use toml::{Spanned, Value};
 use welkin_pack::Format;
 
 use crate::error::RecipeError;
-use crate::recipe::{Entry, Fractal, Recipe, line_and_column};
+use crate::recipe::tables::{Entry, Fractal};
+use crate::recipe::{Recipe, line_and_column};
 use crate::settings::{
     CloudSettings, FbmSettings, FlareSettings, FractalSettings, GalaxySettings, GradientSettings,
     PhotoSettings, Resolved, SkySettings, StarSettings, SunSettings,

@@ -22,9 +22,9 @@ use welkin_pack::Image;
 use welkin_pack::format::CUBE_FACES;
 use welkin_pack::mapping::{cube_texel, cube_to_direction, direction_to_cube};
 
-use crate::error::BakeError;
+use crate::error::{BakeError, unfit_size};
 use crate::inputs::{Named, Picture, Reader};
-use crate::load::{self, MAX_FILE_BYTES, unfit_size};
+use crate::load::{self, MAX_FILE_BYTES};
 use crate::notice::Clipped;
 use crate::settings::{SkyboxPicture, SkyboxSettings};
 

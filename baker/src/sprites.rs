@@ -32,10 +32,7 @@ pub(crate) use pictures::files;
 pub(crate) use puff::FLOOR;
 use puff::Puff;
 use veil::{Fog, Wisp};
-use volume::Volume;
-
-/// Nothing of a sprite lies farther from the middle of its cell, whose half side is 1.
-const REACH: f32 = 0.84;
+use volume::{Volume, Volumes};
 
 /// Standard deviation of the grey. Fog has hardly any relief, or a layer of it would look like a heap.
 const RELIEF_FOG: f32 = 0.025;
@@ -72,12 +69,6 @@ fn noise(shape: &SpriteShape, contrast: f32, side: u32, seed: u64) -> Vec<Image>
         shade::standardised(&picture, contrast * relief)
     });
     cells.collect()
-}
-
-/// The noise that all sprites are cut from.
-struct Volumes {
-    gradients: Volume,
-    lumps: Volume,
 }
 
 /// Light times opacity, and opacity; and the relief that it is to have.
@@ -118,14 +109,4 @@ fn sheet(cells: &[Image]) -> Image {
         }
     }
     sheet
-}
-
-/// An even random number.
-fn between([least, most]: [f32; 2], stream: &mut Stream) -> f32 {
-    least + (most - least) * stream.unit() as f32
-}
-
-/// A random place in a volume, in cells.
-fn place_of(stream: &mut Stream) -> [f32; 3] {
-    [(); 3].map(|()| between([0.0, 8.0], stream))
 }

@@ -28,6 +28,11 @@ impl Stream {
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
     }
+
+    /// A number between two, the second excluded.
+    pub fn between(&mut self, [least, most]: [f32; 2]) -> f32 {
+        least + (most - least) * self.unit() as f32
+    }
 }
 
 #[cfg(test)]

@@ -3,12 +3,19 @@
 
 use rayon::prelude::*;
 
-use crate::field::glb;
+use crate::error::PackError;
+use crate::field::{Field, glb};
+use crate::format::Format;
+use crate::image::Image;
+use crate::ktx;
 use crate::manifest::{
-    Channel, FieldEntry, FractalNoise, Input, KIND, MANIFEST_FILE, Sampler, TextureEntry, VERSION,
+    Channel, FieldEntry, FractalNoise, Input, KIND, MANIFEST_FILE, Manifest, Sampler, TextureEntry,
+    VERSION,
 };
-use crate::role::ChannelSpec;
-use crate::{Field, Format, Image, Manifest, Pack, PackError, Role, Texture, ktx, mip};
+use crate::mip;
+use crate::pack::Pack;
+use crate::role::{ChannelSpec, Role};
+use crate::texture::Texture;
 
 /// What a pack is built from, beside its images.
 #[derive(Clone, Debug, Default, PartialEq)]

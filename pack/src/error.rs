@@ -4,7 +4,7 @@
 
 use std::io;
 
-use crate::shown;
+use crate::shown::shown;
 
 /// Why a pack could not be read, built or saved.
 #[derive(Debug, thiserror::Error)]

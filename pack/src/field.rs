@@ -7,8 +7,6 @@
 pub(crate) mod glb;
 mod verify;
 
-use crate::PackError;
-
 /// Side of a section, in metres: the article counts sprites and boxes in blocks of 16 square kilometres.
 pub const SECTION_SIDE_M: f32 = 4000.0;
 
@@ -27,17 +25,6 @@ pub struct Field {
 }
 
 impl Field {
-    /// Reads a field from the bytes of a `field.glb`, and verifies it as [`Field::verify`] does. `file` names it in errors.
-    ///
-    /// # Errors
-    /// [`PackError`] if it is not a file as docs/pack-format.md describes it. Counts are compared with
-    /// [`crate::limits`] and with the length of the file before anything is allocated for them.
-    pub fn from_glb(file: &str, bytes: &[u8]) -> Result<Field, PackError> {
-        let field = glb::decode(file, bytes)?;
-        field.verify(file)?;
-        Ok(field)
-    }
-
     /// Side of the square after which it repeats, in metres.
     pub fn side_m(&self) -> f32 {
         self.sections as f32 * SECTION_SIDE_M

@@ -16,9 +16,10 @@ mod sections;
 use ktx2::dfd::{Basic, Block};
 use ktx2::{Header, ParseError, SupercompressionScheme};
 
+use crate::error::PackError;
+use crate::format::{Format, Shape};
 use crate::limits::{MAX_LAYERS, MAX_SIDE, MAX_TEXTURE_BYTES};
 use crate::texture::Texture;
-use crate::{Format, PackError, Shape};
 
 #[cfg(feature = "write")]
 pub use write::encode;

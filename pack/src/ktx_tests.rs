@@ -4,10 +4,11 @@ mod rules;
 
 use proptest::prelude::*;
 
+use crate::error::PackError;
+use crate::format::{Format, Shape};
 use crate::ktx::{decode, encode};
 use crate::role::Mips;
-use crate::texture::level_size;
-use crate::{Format, PackError, Shape, Texture};
+use crate::texture::{Texture, level_size};
 
 fn texture(
     format: Format,

@@ -7,6 +7,8 @@ pub mod error;
 pub mod field;
 pub mod format;
 pub mod image;
+#[cfg(feature = "interrupt")]
+pub mod interrupt;
 pub mod ktx;
 #[cfg(test)]
 #[cfg(feature = "write")]
@@ -39,6 +41,8 @@ mod view;
 #[cfg(all(feature = "write", not(target_family = "wasm")))]
 pub mod whole;
 
+#[cfg(feature = "write")]
+pub use build::{PackInfo, Source};
 pub use error::PackError;
 #[cfg(all(feature = "write", not(target_family = "wasm")))]
 pub use error::WriteError;
@@ -48,12 +52,10 @@ pub use image::Image;
 pub use layer_kind::LayerKind;
 pub use manifest::Manifest;
 pub use mapping::{FlareCell, SheetCell, SheetKind};
-#[cfg(all(feature = "write", not(target_family = "wasm")))]
-pub use pack::Overwrite;
 pub use pack::Pack;
-#[cfg(feature = "write")]
-pub use pack::{PackInfo, Source};
 pub use role::Role;
+#[cfg(all(feature = "write", not(target_family = "wasm")))]
+pub use save::{Overwrite, verify_place};
 pub use shown::shown;
 pub use texel::{
     CloudTexel, FbmTexel, FlareTexel, GalaxyTexel, LayerTexel, OctaveTexel, SkyTexel, SkyboxTexel,

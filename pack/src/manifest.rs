@@ -5,8 +5,11 @@ mod field;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::role::{ChannelSpec, Filter, Wrap};
-use crate::{Format, PackError, Role, Shape, Texture};
+use crate::error::PackError;
+use crate::format::{Format, Shape};
+use crate::read::verify_bytes;
+use crate::role::{ChannelSpec, Filter, Role, Wrap};
+use crate::texture::Texture;
 
 pub use field::FieldEntry;
 
@@ -345,18 +348,6 @@ impl TextureEntry {
         }
         Ok(())
     }
-}
-
-/// Compares a file's bytes with the size and the hash that the manifest gives.
-fn verify_bytes(file: &str, bytes: &[u8], size: u64, blake3: &str) -> Result<(), PackError> {
-    if bytes.len() as u64 != size {
-        return Err(PackError::value(file, "file_bytes", bytes.len(), size));
-    }
-    let found = blake3::hash(bytes).to_hex().to_string();
-    if found != blake3 {
-        return Err(PackError::value(file, "file_blake3", found, blake3));
-    }
-    Ok(())
 }
 
 fn seal_of(unsealed_text: &str) -> String {

@@ -3,15 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use crate::error::PackError;
+use crate::field::Field;
+use crate::ktx;
 use crate::limits::{MAX_FIELD_BYTES, MAX_FILE_BYTES, MAX_MANIFEST_BYTES};
-use crate::manifest::MANIFEST_FILE;
+use crate::manifest::{MANIFEST_FILE, Manifest};
 use crate::read::{in_folder, in_memory, join};
-use crate::{Field, Manifest, PackError, Role, Texture, ktx};
-
-#[cfg(feature = "write")]
-pub use crate::build::{PackInfo, Source};
-#[cfg(all(feature = "write", not(target_family = "wasm")))]
-pub use crate::save::{Overwrite, verify_place};
+use crate::role::Role;
+use crate::texture::Texture;
 
 /// A pack: its manifest, its textures and its field of clouds, which agree with each other.
 ///

@@ -6,10 +6,16 @@ use std::path::Path;
 
 use proptest::prelude::*;
 
+use crate::build::Source;
+use crate::error::{PackError, WriteError};
+use crate::field::Field;
+use crate::image::Image;
 use crate::manifest::{MANIFEST_FILE, schema_json};
+use crate::pack::Pack;
+use crate::role::Role;
+use crate::save::Overwrite;
 use crate::test_field::field;
 use crate::test_pack::{Stream, info, pack, sources, write};
-use crate::{Field, Image, Overwrite, Pack, PackError, Role, Source, WriteError};
 
 fn never() -> bool {
     false
@@ -475,7 +481,7 @@ proptest! {
                 let mut level = image;
                 for index in 0..texture.levels.len() {
                     if index > 0 {
-                        level = crate::mip::halve(&level);
+                        level = crate::mip::fold::halve(&level);
                     }
                     let found = texture.image(index, layer);
                     prop_assert_eq!((found.width, found.height), (level.width, level.height));

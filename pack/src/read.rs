@@ -5,7 +5,7 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 
-use crate::PackError;
+use crate::error::PackError;
 
 /// The name of a pack's file in errors.
 pub(crate) fn join(place: &str, name: &str) -> String {
@@ -68,6 +68,23 @@ fn verify_size(file: &str, found: u64, limit: u64) -> Result<(), PackError> {
             found,
             limit,
         });
+    }
+    Ok(())
+}
+
+/// Compares a file's bytes with the size and the hash that the manifest gives.
+pub(crate) fn verify_bytes(
+    file: &str,
+    bytes: &[u8],
+    size: u64,
+    blake3: &str,
+) -> Result<(), PackError> {
+    if bytes.len() as u64 != size {
+        return Err(PackError::value(file, "file_bytes", bytes.len(), size));
+    }
+    let found = blake3::hash(bytes).to_hex().to_string();
+    if found != blake3 {
+        return Err(PackError::value(file, "file_blake3", found, blake3));
     }
     Ok(())
 }

@@ -4,12 +4,14 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::error::WriteError;
+use crate::error::{PackError, WriteError};
 use crate::limits::MAX_MANIFEST_BYTES;
-use crate::manifest::{FieldEntry, MANIFEST_FILE};
+use crate::manifest::{FieldEntry, MANIFEST_FILE, Manifest};
+use crate::pack::Pack;
+use crate::place;
 use crate::read::in_folder;
+use crate::role::Role;
 use crate::whole::{Folder, Leftover, others_in, verify_folder};
-use crate::{Manifest, Pack, PackError, Role, place};
 
 /// What happens to a pack that is already there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

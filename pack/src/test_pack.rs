@@ -1,14 +1,18 @@
 //! A small pack that breaks no rule, for tests to break.
 
+use crate::build::{PackInfo, Source};
+use crate::format::Format;
+use crate::image::Image;
+use crate::layer_kind::LayerKind;
 use crate::manifest::FractalNoise;
 use crate::mapping::{
-    FBM_STEPS_A_TILE, cube_to_direction, galaxy_uv_to_direction, night_share, sun_direction,
+    FBM_STEPS_A_TILE, FlareCell, SheetCell, SheetKind, cube_to_direction, galaxy_uv_to_direction,
+    night_share, sun_direction,
 };
+use crate::pack::Pack;
+use crate::role::Role;
 use crate::test_field::field;
-use crate::{
-    FlareCell, Format, Image, LayerKind, Pack, PackInfo, Role, SheetCell, SheetKind, Source,
-    StarTexel,
-};
+use crate::texel::StarTexel;
 
 /// A stream of numbers in 0..1: a 64-bit linear congruential generator (D. E. Knuth, MMIX), upper bits.
 pub(crate) struct Stream(u64);

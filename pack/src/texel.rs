@@ -9,8 +9,8 @@ mod sprites;
 pub use layers::LayerTexel;
 pub use sprites::SpriteTexel;
 
-use crate::texture::{encode, unorm8};
-use crate::{Format, Texture};
+use crate::format::Format;
+use crate::texture::{Texture, encode, unorm8};
 
 /// A texel of the role `clouds`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

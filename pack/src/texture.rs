@@ -2,7 +2,8 @@
 
 use half::f16;
 
-use crate::{Format, Image, Shape};
+use crate::format::{Format, Shape};
+use crate::image::Image;
 
 /// A texture with its mip levels, as tightly packed bytes.
 ///

@@ -2,7 +2,8 @@
 
 use half::f16;
 
-use crate::{Format, Texture};
+use crate::format::Format;
+use crate::texture::Texture;
 
 /// One image of one level as linear floats, decoded texel by texel: the checks look at textures of hundreds of megabytes,
 /// of which an [`crate::Image`] would be up to four times as large.
@@ -100,7 +101,8 @@ fn decode(format: Format, bytes: &[u8]) -> Texel {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Format, Shape, Texture};
+    use crate::format::{Format, Shape};
+    use crate::texture::Texture;
 
     #[test]
     fn a_view_shows_what_the_image_holds() {

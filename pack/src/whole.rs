@@ -14,10 +14,8 @@ use crate::error::WriteError;
 use crate::place::{Place, output};
 use temporary::Temporary;
 
+pub use put::{IsOurs, is_litter};
 pub use temporary::{Leftover, TEMPORARY, sweep};
-
-/// Names of the files of a folder that may be replaced.
-pub type IsOurs = fn(&str) -> bool;
 
 /// Writes a file. A file of that name is replaced, at the end of a link too; a device or a folder is not. `cancelled` is asked before the
 /// last step.
@@ -89,7 +87,7 @@ impl Folder {
     /// # Errors
     /// Those of [`verify_folder`], if something has come there meanwhile; [`WriteError::Failed`].
     pub fn publish(mut self) -> Result<Vec<Leftover>, WriteError> {
-        put::put(&self)?;
+        put::put(&self.temporary, &self.place, &self.shown, self.ours)?;
         self.leftovers.extend(self.temporary.remove().err());
         Ok(self.leftovers)
     }
@@ -128,16 +126,6 @@ pub fn sweep_beside(path: &Path) -> Vec<Leftover> {
     let place = Place::of(path).map(|place| place.path());
     let parent = place.as_deref().ok().and_then(Path::parent);
     parent.map(sweep).unwrap_or_default()
-}
-
-/// Whether a file of this name is one that systems put into folders by themselves, or one in the making: such never stand in the way.
-pub fn is_litter(name: &str) -> bool {
-    // Finder; Windows Explorer, whose disks do not tell case; AppleDouble, and files that NFS keeps until they are closed.
-    let named = [".DS_Store", "Thumbs.db", "desktop.ini"];
-    named.iter().any(|litter| name.eq_ignore_ascii_case(litter))
-        || ["._", ".nfs", TEMPORARY]
-            .iter()
-            .any(|start| name.starts_with(start))
 }
 
 /// Writes a new file, brings it to the disk and reads it back.

@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use welkin_runtime::geometry::camera::CameraUniforms;
 
-use crate::xyz;
+use crate::vector::xyz;
 
 /// Direction of a pixel, not normalised; (0.5, 0.5) is the centre of the upper left pixel.
 pub fn ray_of(camera: &CameraUniforms, pixel: Vec2) -> Vec3 {

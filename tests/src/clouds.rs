@@ -1,15 +1,14 @@
-//! Twin of clouds.wgsl, and of the choice between the methods' layers.
+//! Twin of clouds.wgsl.
 
 use glam::Vec3;
 use welkin_pack::mapping;
-use welkin_runtime::Method;
 use welkin_runtime::clouds::shared::CORE;
 use welkin_runtime::clouds::shared::CloudUniforms;
 use welkin_runtime::frame::Uniforms;
 
 use crate::dome::DomeHit;
 use crate::texture::{Texture, smoothstep};
-use crate::{fbm, lit, octaves, packed, xyz};
+use crate::vector::xyz;
 
 /// What a layer of clouds is computed from.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +21,7 @@ pub struct Inputs<'a> {
     pub map: &'a [Texture],
     /// The pack's layers of the lit method, at the place of their kind.
     pub layers: &'a [Texture],
-    /// What is added to each of [`reads`], in their order: 0, but where a test asks what a texture unit's error is worth
+    /// What is added to each of [`crate::methods::reads`], in their order: 0, but where a test asks what a texture unit's error is worth
     /// in the picture.
     pub nudges: &'a [f32],
 }
@@ -34,28 +33,6 @@ impl Inputs<'_> {
     /// If the method has none.
     pub fn map_at(&self, uv: [f32; 2], level: f32) -> [f32; 4] {
         self.map[0].sample(uv, level)
-    }
-}
-
-/// How many channels of clouds or of a map a method reads in a place.
-pub fn reads(method: Method, uniforms: &Uniforms) -> usize {
-    match method {
-        Method::Packed | Method::Sprites => 4,
-        Method::Octaves => 5,
-        Method::Fbm => 3,
-        Method::Lit => lit::reads(&uniforms.lit),
-    }
-}
-
-/// Radiance and opacity of a method's clouds along a unit direction above the horizon. `narrowing` is the cosine
-/// of its angle to the axis of the lens.
-pub fn layer(method: Method, inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
-    match method {
-        Method::Packed => packed::layer(inputs, direction, narrowing),
-        Method::Sprites => packed::upper_layer(inputs, direction, narrowing),
-        Method::Octaves => octaves::layer(inputs, direction, narrowing),
-        Method::Fbm => fbm::layer(inputs, direction, narrowing),
-        Method::Lit => lit::layer(inputs, direction, narrowing),
     }
 }
 

@@ -4,10 +4,11 @@ use glam::{Vec2, Vec3};
 use welkin_runtime::clouds::fbm::{FINER, FINER_START, FULL, ROUGH_SHADE};
 
 use crate::clouds::{self, Inputs};
+use crate::dome;
 use crate::texture::smoothstep;
-use crate::{dome, xyz};
+use crate::vector::xyz;
 
-/// See [`clouds::layer`]. Reads: shade, cover, finer sum.
+/// See [`crate::methods::layer`]. Reads: shade, cover, finer sum.
 pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     let (fbm, uniforms) = (&inputs.uniforms.fbm, &inputs.uniforms.clouds);
     let hit = dome::intersect(direction);

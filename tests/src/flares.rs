@@ -3,9 +3,10 @@
 use glam::{Vec2, Vec3};
 use welkin_runtime::Method;
 
-use crate::clouds::{self, Inputs};
+use crate::clouds::Inputs;
+use crate::methods;
 use crate::texture::Texture;
-use crate::xyz;
+use crate::vector::xyz;
 
 /// What the clouds leave of the sun.
 pub fn clearness(method: Method, inputs: &Inputs) -> f32 {
@@ -17,7 +18,7 @@ pub fn clearness(method: Method, inputs: &Inputs) -> f32 {
         let direction = towards.normalize();
         let direction = Vec3::new(direction.x, direction.y.max(0.0), direction.z);
         let narrowing = direction.dot(xyz(uniforms.camera.clip_w));
-        clouds::layer(method, inputs, direction, narrowing).1
+        methods::layer(method, inputs, direction, narrowing).1
     };
     let looks = [sun, sun, sun + right, sun - right, sun + up, sun - up];
     1.0 - looks.map(cover).iter().sum::<f32>() / 6.0

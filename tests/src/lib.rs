@@ -20,6 +20,7 @@ pub mod lightning;
 pub mod lit;
 pub mod lit_map;
 pub mod map;
+pub mod methods;
 pub mod octaves;
 pub mod octaves_map;
 pub mod pack;
@@ -37,8 +38,6 @@ pub mod stars;
 pub mod sun;
 pub mod texture;
 pub mod tonemap;
+mod vector;
 
-/// The first three of four numbers.
-pub fn xyz(four: [f32; 4]) -> glam::Vec3 {
-    glam::Vec3::new(four[0], four[1], four[2])
-}
+pub use vector::xyz;

@@ -5,7 +5,8 @@ use welkin_runtime::clear_sky::light::luminance;
 use welkin_runtime::frame::Uniforms;
 use welkin_runtime::weather::lightning::{CORE, SPREAD, THIN};
 
-use crate::{dome, xyz};
+use crate::dome;
+use crate::vector::xyz;
 
 /// What a flash adds to clouds of this radiance and opacity along a unit direction above the horizon.
 pub fn light(uniforms: &Uniforms, direction: Vec3, radiance: Vec3, opacity: f32) -> Vec3 {

@@ -9,7 +9,7 @@ use welkin_runtime::clouds::lit::{LitLayerUniforms, LitUniforms};
 use welkin_runtime::params::LAYERS_AN_ITERATION;
 
 use crate::clouds::{self, Inputs};
-use crate::xyz;
+use crate::vector::xyz;
 
 /// Channels of the map that are read of a layer: light that falls on it, opacity, shade.
 pub const READS: usize = 3;
@@ -149,7 +149,7 @@ fn cloud(inputs: &Inputs, index: usize, plane: Vec2, level: f32, grain: Grain) -
     }
 }
 
-/// See [`clouds::layer`].
+/// See [`crate::methods::layer`].
 pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     let (lit, uniforms) = (&inputs.uniforms.lit, &inputs.uniforms.clouds);
     let distance = distance(lit, direction);

@@ -23,7 +23,7 @@ fn uv(dome: &OctaveDome, plane: Vec2) -> Vec2 {
         + Vec2::new(dome.place[0], dome.place[1])
 }
 
-/// See [`clouds::layer`]. Reads: opacity and grey of the low clouds, the finer amount, opacity of the middle clouds,
+/// See [`crate::methods::layer`]. Reads: opacity and grey of the low clouds, the finer amount, opacity of the middle clouds,
 /// amount of the high ones.
 pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     let (octaves, uniforms) = (&inputs.uniforms.octaves, &inputs.uniforms.clouds);

@@ -5,8 +5,9 @@ use welkin_runtime::clouds::packed::{EDGE, FOLD, UPPER_OPACITY, UPPER_THRESHOLD}
 use welkin_runtime::frame::Uniforms;
 
 use crate::clouds::{self, Inputs, light, soften};
+use crate::dome;
 use crate::texture::smoothstep;
-use crate::{dome, xyz};
+use crate::vector::xyz;
 
 /// The four samples that the paper's shader starts from (lines 10-13).
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +51,7 @@ pub fn fold(grey: f32) -> f32 {
     grey - 0.75 * (beyond + libm::sqrtf(beyond * beyond + FOLD * FOLD))
 }
 
-/// See [`clouds::layer`]. Reads: photo, noise, detail, upper layer.
+/// See [`crate::methods::layer`]. Reads: photo, noise, detail, upper layer.
 pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     let (packed, clouds) = (&inputs.uniforms.packed, &inputs.uniforms.clouds);
     let hit = dome::intersect(direction);

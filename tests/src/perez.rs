@@ -10,7 +10,8 @@ use welkin_runtime::frame::Uniforms;
 use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, PerezParams, PerezShape, SkyModel, SkyParams};
 
-use crate::{pack, xyz};
+use crate::pack;
+use crate::vector::xyz;
 
 /// Luminance and the published chromaticities x and y along a unit direction.
 pub fn colour(perez: &PerezUniforms, direction: Vec3) -> Vec3 {

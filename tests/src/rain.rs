@@ -9,7 +9,8 @@ use welkin_runtime::weather::rain::{
     COLUMNS, DROPS_A_COLUMN, FADE, HAZE_ABOVE, HAZE_FALL, HEIGHT_M, SLOTS,
 };
 
-use crate::{camera, xyz};
+use crate::camera;
+use crate::vector::xyz;
 
 /// Colour and opacity of the haze along a ray.
 pub fn haze(rain: &RainUniforms, ray: Vec3) -> (Vec3, f32) {

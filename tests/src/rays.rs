@@ -11,9 +11,10 @@ use welkin_runtime::weather::rays::{
     AROUND, CORE, DECAY, GAIN, GROUND, HORIZON, REACH, SIZE, SOURCE, TAPS, TEXEL_RAD, WINDOW,
 };
 
-use crate::clouds::{self, Inputs};
+use crate::clouds::Inputs;
+use crate::methods;
 use crate::texture::{Texture, smoothstep};
-use crate::xyz;
+use crate::vector::xyz;
 
 /// The byte that is neither bright nor dark.
 const NEITHER: f32 = 128.0;
@@ -57,7 +58,7 @@ fn mask(method: Method, inputs: &Inputs, place: Vec2) -> [f32; 2] {
         return [0.0; 2];
     }
     let texel_rad = (TEXEL_RAD[0] * share).max(TEXEL_RAD[1]);
-    let (_, opacity) = clouds::layer(method, inputs, direction, texel_rad * rays.dark[3]);
+    let (_, opacity) = methods::layer(method, inputs, direction, texel_rad * rays.dark[3]);
     let weight = smoothstep(0.0, HORIZON, direction.y);
     [weight * (1.0 - opacity), weight]
 }

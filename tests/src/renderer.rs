@@ -10,9 +10,10 @@ use welkin_runtime::{Camera, Method, SkyParams};
 use crate::clouds::Inputs;
 use crate::skybox::{self, Skybox};
 use crate::texture::{Texture, smoothstep};
+use crate::vector::xyz;
 use crate::{
-    camera, clouds, fbm_map, fbm_pack, flares, galaxy, lightning, lit_map, map, octaves_map, rain,
-    sky, stars, sun, xyz,
+    camera, fbm_map, fbm_pack, flares, galaxy, lightning, lit_map, map, methods, octaves_map, rain,
+    sky, stars, sun,
 };
 
 /// A texture unit may filter 8-bit texels in 8 bits (Mesa's software does; Vulkan asks for no more), which makes a
@@ -76,7 +77,7 @@ impl<'a> Twin<'a> {
             method: params.method,
             uniforms,
             map: Vec::new(),
-            nudges: vec![0.0; clouds::reads(params.method, &uniforms)],
+            nudges: vec![0.0; methods::reads(params.method, &uniforms)],
             states: match params.method {
                 Method::Octaves => self.facts.octave_states(params, seconds),
                 Method::Packed | Method::Fbm | Method::Lit | Method::Sprites => Vec::new(),
@@ -228,7 +229,7 @@ impl Frame<'_> {
 
     /// Radiance and opacity of the clouds along a ray of that length before it was made a unit vector.
     fn clouds(&self, direction: Vec3, ray_length: f32) -> (Vec3, f32) {
-        clouds::layer(self.method, &self.inputs(), direction, 1.0 / ray_length)
+        methods::layer(self.method, &self.inputs(), direction, 1.0 / ray_length)
     }
 
     /// What its clouds are computed from.

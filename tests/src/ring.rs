@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 use welkin_runtime::sprites::ring::HALF_SIDE;
 use welkin_runtime::sprites::ring::{RingSet, RingUniforms};
 
-use crate::xyz;
+use crate::vector::xyz;
 
 /// Where a ray from the viewer leaves a ring's octagon: its side, and u and v on that side's picture. v is outside of 0..1 above
 /// and below.

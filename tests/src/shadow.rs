@@ -4,8 +4,9 @@ use glam::Vec2;
 use welkin_runtime::clouds::lit::shadow::SIDE;
 
 use crate::clouds::{self, Inputs};
+use crate::lit;
 use crate::texture::{Texture, smoothstep};
-use crate::{lit, xyz};
+use crate::vector::xyz;
 
 /// The share of direct light that comes through to the middle of each texel, row by row from the north.
 pub fn render(inputs: &Inputs) -> Vec<f32> {

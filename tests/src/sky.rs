@@ -4,8 +4,9 @@ use glam::{Vec2, Vec3};
 use welkin_runtime::clear_sky::gradient::{GROUND_FALL, GROUND_FLOOR};
 use welkin_runtime::frame::Uniforms;
 
+use crate::perez;
 use crate::texture::Texture;
-use crate::{perez, xyz};
+use crate::vector::xyz;
 
 /// Radiance of the clear sky along a unit direction.
 pub fn radiance(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3 {

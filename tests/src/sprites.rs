@@ -10,7 +10,8 @@ use welkin_runtime::sprites::ring::SpriteView;
 use welkin_runtime::sprites::{RIM_OPAQUE, formation};
 
 use crate::texture::{Texture, smoothstep};
-use crate::{clouds, sky, xyz};
+use crate::vector::xyz;
+use crate::{clouds, sky};
 
 /// What sprites are computed from.
 #[derive(Clone, Copy, Debug)]

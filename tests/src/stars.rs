@@ -7,6 +7,7 @@ use welkin_runtime::clear_sky::stars::{COLD, GALAXY_BOOST, WARM};
 use welkin_runtime::frame::Uniforms;
 
 use crate::camera;
+use crate::vector::xyz;
 
 /// Radiance of the stars around `direction`, at the pixel with centre `pixel`.
 pub fn radiance(
@@ -34,7 +35,7 @@ pub fn radiance(
         .into_iter()
         .map(|cell| light(uniforms, pack, cell, pixel, seconds))
         .sum();
-    let narrowing = direction.dot(crate::xyz(uniforms.camera.clip_w));
+    let narrowing = direction.dot(xyz(uniforms.camera.clip_w));
     let spread = 1.0 + even * (narrowing.powi(-3) - 1.0);
     light * (brightness * spread * (1.0 + GALAXY_BOOST * galaxy))
 }

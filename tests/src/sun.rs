@@ -5,7 +5,7 @@ use welkin_runtime::clear_sky::sun::HORIZON;
 use welkin_runtime::frame::Uniforms;
 
 use crate::texture::{Texture, smoothstep};
-use crate::xyz;
+use crate::vector::xyz;
 
 /// Radiance of the sun's square along a unit direction.
 pub fn radiance(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3 {

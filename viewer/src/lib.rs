@@ -9,4 +9,5 @@ pub mod pass_times;
 pub mod reference;
 pub mod save;
 pub mod spread;
+mod timestamps;
 pub mod timing;

@@ -5,7 +5,6 @@
 
 mod bench;
 mod cli;
-mod interrupt;
 mod render;
 mod told;
 #[cfg(feature = "window")]
@@ -16,6 +15,7 @@ use std::process::ExitCode;
 
 use cli::{Cli, Command};
 use told::told;
+use welkin_pack::interrupt;
 
 fn main() -> ExitCode {
     // Wrong usage and `--help` end here, as clap has them end.

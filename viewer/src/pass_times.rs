@@ -6,6 +6,7 @@
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use crate::gpu::Gpu;
+use crate::timestamps::{Timestamps, tick_ms, ticks_between};
 
 /// What of a frame is timed, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,8 +34,6 @@ impl Part {
 }
 
 const QUERIES: u32 = 2 * Part::ALL.len() as u32;
-/// Timestamps have 64 bits.
-const BYTES: u64 = 8 * QUERIES as u64;
 /// Frames on their way.
 const SLOTS: usize = 3;
 
@@ -49,9 +48,7 @@ pub struct PassTimes {
 
 #[derive(Debug)]
 struct Slot {
-    set: wgpu::QuerySet,
-    resolved: wgpu::Buffer,
-    readable: wgpu::Buffer,
+    timestamps: Timestamps,
     is_free: bool,
 }
 
@@ -63,10 +60,15 @@ impl PassTimes {
     /// None on a device without timestamps.
     pub fn new(gpu: &Gpu) -> Option<PassTimes> {
         gpu.has_timestamps().then(|| PassTimes {
-            slots: (0..SLOTS).map(|_| Slot::new(&gpu.device)).collect(),
+            slots: (0..SLOTS)
+                .map(|_| Slot {
+                    timestamps: Timestamps::new(gpu, QUERIES),
+                    is_free: true,
+                })
+                .collect(),
             arrived: channel(),
             between_passes: gpu.has_timestamps_between_passes(),
-            tick_ms: f64::from(gpu.queue.get_timestamp_period()) / 1e6,
+            tick_ms: tick_ms(gpu),
         })
     }
 
@@ -74,7 +76,7 @@ impl PassTimes {
     pub fn begin(&mut self, encoder: &mut wgpu::CommandEncoder) -> Option<Timed> {
         let index = self.slots.iter().position(|slot| slot.is_free)?;
         if self.between_passes {
-            encoder.write_timestamp(&self.slots[index].set, 0);
+            encoder.write_timestamp(&self.slots[index].timestamps.set, 0);
         }
         Some(Timed(index))
     }
@@ -82,27 +84,21 @@ impl PassTimes {
     /// Ends the off-screen part.
     pub fn off_screen_ends(&self, timed: Timed, encoder: &mut wgpu::CommandEncoder) {
         if self.between_passes {
-            encoder.write_timestamp(&self.slots[timed.0].set, 1);
+            encoder.write_timestamp(&self.slots[timed.0].timestamps.set, 1);
         }
     }
 
     /// Where the pass of a part writes its times.
     pub fn writes(&self, timed: Timed, part: Part) -> wgpu::RenderPassTimestampWrites<'_> {
         let first = 2 * part as u32;
-        wgpu::RenderPassTimestampWrites {
-            query_set: &self.slots[timed.0].set,
-            beginning_of_pass_write_index: Some(first),
-            end_of_pass_write_index: Some(first + 1),
-        }
+        let timestamps = &self.slots[timed.0].timestamps;
+        timestamps.writes(Some(first), Some(first + 1))
     }
 
     /// Ends a frame, before its encoder is submitted.
     pub fn end(&self, timed: Timed, encoder: &mut wgpu::CommandEncoder) {
-        let slot = &self.slots[timed.0];
-        // What was not written may not be resolved.
         let first = if self.between_passes { 0 } else { 2 };
-        encoder.resolve_query_set(&slot.set, first..QUERIES, &slot.resolved, 0);
-        encoder.copy_buffer_to_buffer(&slot.resolved, 0, &slot.readable, 0, BYTES);
+        self.slots[timed.0].timestamps.resolve(encoder, first);
     }
 
     /// Asks for the times, after the encoder was submitted.
@@ -110,7 +106,8 @@ impl PassTimes {
         let slot = &mut self.slots[timed.0];
         slot.is_free = false;
         let sender = self.arrived.0.clone();
-        slot.readable
+        slot.timestamps
+            .readable
             .slice(..)
             .map_async(wgpu::MapMode::Read, move |mapped| {
                 if mapped.is_ok() {
@@ -125,14 +122,14 @@ impl PassTimes {
         let mut times = Vec::new();
         while let Ok(index) = self.arrived.1.try_recv() {
             let slot = &mut self.slots[index];
-            if let Ok(bytes) = slot.readable.slice(..).get_mapped_range() {
+            if let Ok(bytes) = slot.timestamps.readable.slice(..).get_mapped_range() {
                 times.push(of_ticks(
                     &bytemuck::pod_collect_to_vec(&bytes),
                     self.between_passes,
                     self.tick_ms,
                 ));
             }
-            slot.readable.unmap();
+            slot.timestamps.readable.unmap();
             slot.is_free = true;
         }
         times
@@ -145,31 +142,8 @@ fn of_ticks(ticks: &[u64], between_passes: bool, tick_ms: f64) -> [Option<f64>; 
     Part::ALL.map(|part| {
         let pair = 2 * (part as usize).checked_sub(skipped)?;
         let (begin, end) = (ticks.get(pair)?, ticks.get(pair + 1)?);
-        Some(end.saturating_sub(*begin) as f64 * tick_ms)
+        Some(ticks_between(*begin, *end) * tick_ms)
     })
-}
-
-impl Slot {
-    fn new(device: &wgpu::Device) -> Slot {
-        let buffer = |usage| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("times of passes"),
-                size: BYTES,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
-        Slot {
-            set: device.create_query_set(&wgpu::QuerySetDescriptor {
-                label: Some("times of passes"),
-                ty: wgpu::QueryType::Timestamp,
-                count: QUERIES,
-            }),
-            resolved: buffer(wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC),
-            readable: buffer(wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ),
-            is_free: true,
-        }
-    }
 }
 
 #[cfg(test)]

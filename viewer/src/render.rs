@@ -3,12 +3,11 @@
 mod artist;
 mod sequence;
 
-use std::io::Write;
 use std::path::Path;
 
 use anyhow::{Error, Result, ensure};
 use welkin_pack::place::verify_apart;
-use welkin_pack::whole::{Leftover, sweep_beside};
+use welkin_pack::whole::sweep_beside;
 use welkin_pack::{Pack, Role};
 use welkin_runtime::{Method, Oktas, SkyError, SkyParams};
 use welkin_viewer::gpu::Gpu;
@@ -16,6 +15,7 @@ use welkin_viewer::headless::render;
 use welkin_viewer::save::save;
 
 use crate::cli::{RenderArgs, Shot};
+use crate::told::tell_leftovers;
 use artist::Artist;
 
 /// What calibration keeps: docs/cover.md.
@@ -45,7 +45,7 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     }
     let gpu = Gpu::open()?;
     let sequence = args.export.sequence(args.at);
-    tell(&sweep_beside(&args.output));
+    tell_leftovers(&sweep_beside(&args.output));
     match (shot, sequence) {
         (Shot::Frame(format), None) => {
             let drawn = render(&gpu, &pack, format.target(), &view)?;
@@ -65,13 +65,6 @@ pub fn run(args: &RenderArgs) -> Result<()> {
                 }
             }
         }
-    }
-}
-
-/// Tells what earlier runs have left beside an output.
-fn tell(leftovers: &[Leftover]) {
-    for leftover in leftovers {
-        writeln!(std::io::stderr(), "{leftover}").ok();
     }
 }
 

@@ -5,6 +5,7 @@ use std::time::Instant;
 use crate::frame::Target;
 use crate::gpu::{Gpu, GpuError};
 use crate::headless::draw_pass;
+use crate::timestamps::{Timestamps, tick_ms, ticks_between};
 
 /// Times one frame at a time, between [`FrameTimer::begin`] and [`FrameTimer::end`].
 ///
@@ -28,9 +29,9 @@ pub struct FrameTime {
 #[derive(Debug)]
 enum Clock {
     /// Timestamps of the GPU, between passes too.
-    Encoder(Queries),
+    Encoder(Timestamps),
     /// Timestamps of passes only: passes that draw nothing, into one pixel, mark what is between them.
-    Passes(Queries, wgpu::TextureView),
+    Passes(Timestamps, wgpu::TextureView),
     /// No timestamps: what is off screen is submitted by itself.
     Cpu,
 }
@@ -42,9 +43,9 @@ impl FrameTimer {
     /// [`GpuError::FrameSize`], on a device that cannot draw into one pixel.
     pub fn new(gpu: &Gpu) -> Result<FrameTimer, GpuError> {
         let clock = if gpu.has_timestamps_between_passes() {
-            Clock::Encoder(Queries::new(gpu))
+            Clock::Encoder(Timestamps::new(gpu, COUNT))
         } else if gpu.has_timestamps() {
-            Clock::Passes(Queries::new(gpu), marker(gpu)?)
+            Clock::Passes(Timestamps::new(gpu, COUNT), marker(gpu)?)
         } else {
             Clock::Cpu
         };
@@ -55,9 +56,9 @@ impl FrameTimer {
     pub fn begin(&self, gpu: &Gpu) -> wgpu::CommandEncoder {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         match &self.clock {
-            Clock::Encoder(queries) => encoder.write_timestamp(&queries.set, MAP_BEGINS),
-            Clock::Passes(queries, marker) => {
-                let writes = queries.writes(None, Some(MAP_BEGINS));
+            Clock::Encoder(timestamps) => encoder.write_timestamp(&timestamps.set, MAP_BEGINS),
+            Clock::Passes(timestamps, marker) => {
+                let writes = timestamps.writes(None, Some(MAP_BEGINS));
                 draw_pass(&mut encoder, marker, Some(writes), |_| ());
             }
             Clock::Cpu => {}
@@ -76,23 +77,23 @@ impl FrameTimer {
         view: &wgpu::TextureView,
         draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
     ) -> Result<FrameTime, GpuError> {
-        let queries = match &self.clock {
-            Clock::Encoder(queries) => {
-                encoder.write_timestamp(&queries.set, MAP_ENDS);
-                queries
+        let timestamps = match &self.clock {
+            Clock::Encoder(timestamps) => {
+                encoder.write_timestamp(&timestamps.set, MAP_ENDS);
+                timestamps
             }
-            Clock::Passes(queries, marker) => {
-                let writes = queries.writes(Some(MAP_ENDS), None);
+            Clock::Passes(timestamps, marker) => {
+                let writes = timestamps.writes(Some(MAP_ENDS), None);
                 draw_pass(&mut encoder, marker, Some(writes), |_| ());
-                queries
+                timestamps
             }
             Clock::Cpu => return cpu_time(gpu, encoder, view, draw),
         };
-        let writes = queries.writes(Some(DOME_BEGINS), Some(DOME_ENDS));
+        let writes = timestamps.writes(Some(DOME_BEGINS), Some(DOME_ENDS));
         draw_pass(&mut encoder, view, Some(writes), draw);
-        queries.resolve(&mut encoder);
+        timestamps.resolve(&mut encoder, MAP_BEGINS);
         gpu.queue.submit([encoder.finish()]);
-        queries.read(gpu)
+        read(gpu, timestamps)
     }
 }
 
@@ -129,67 +130,17 @@ const MAP_BEGINS: u32 = 0;
 const MAP_ENDS: u32 = 1;
 const DOME_BEGINS: u32 = 2;
 const DOME_ENDS: u32 = 3;
-const QUERIES: u32 = 4;
-/// Timestamps have 64 bits.
-const QUERY_BYTES: u64 = 8 * QUERIES as u64;
+const COUNT: u32 = 4;
 
-#[derive(Debug)]
-struct Queries {
-    set: wgpu::QuerySet,
-    resolved: wgpu::Buffer,
-    readable: wgpu::Buffer,
-    tick_ns: f64,
-}
-
-impl Queries {
-    fn new(gpu: &Gpu) -> Queries {
-        let buffer = |usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("timestamps"),
-                size: QUERY_BYTES,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
-        Queries {
-            set: gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
-                label: Some("timestamps"),
-                ty: wgpu::QueryType::Timestamp,
-                count: QUERIES,
-            }),
-            resolved: buffer(wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC),
-            readable: buffer(wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ),
-            tick_ns: f64::from(gpu.queue.get_timestamp_period()),
-        }
-    }
-
-    fn writes(
-        &self,
-        beginning: Option<u32>,
-        end: Option<u32>,
-    ) -> wgpu::RenderPassTimestampWrites<'_> {
-        wgpu::RenderPassTimestampWrites {
-            query_set: &self.set,
-            beginning_of_pass_write_index: beginning,
-            end_of_pass_write_index: end,
-        }
-    }
-
-    fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
-        encoder.resolve_query_set(&self.set, 0..QUERIES, &self.resolved, 0);
-        encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, QUERY_BYTES);
-    }
-
-    fn read(&self, gpu: &Gpu) -> Result<FrameTime, GpuError> {
-        let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&gpu.read(&self.readable)?);
-        let ms = |begins: u32, ends: u32| {
-            ticks[ends as usize].saturating_sub(ticks[begins as usize]) as f64 * self.tick_ns / 1e6
-        };
-        Ok(FrameTime {
-            map_ms: ms(MAP_BEGINS, MAP_ENDS),
-            dome_ms: ms(DOME_BEGINS, DOME_ENDS),
-        })
-    }
+fn read(gpu: &Gpu, timestamps: &Timestamps) -> Result<FrameTime, GpuError> {
+    let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&gpu.read(&timestamps.readable)?);
+    let ms = |begins: u32, ends: u32| {
+        ticks_between(ticks[begins as usize], ticks[ends as usize]) * tick_ms(gpu)
+    };
+    Ok(FrameTime {
+        map_ms: ms(MAP_BEGINS, MAP_ENDS),
+        dome_ms: ms(DOME_BEGINS, DOME_ENDS),
+    })
 }
 
 #[cfg(test)]
@@ -241,10 +192,13 @@ mod tests {
         let gpu = Gpu::open().unwrap();
         let mut clocks = Vec::new();
         if gpu.has_timestamps() {
-            clocks.push(Clock::Passes(Queries::new(&gpu), marker(&gpu).unwrap()));
+            clocks.push(Clock::Passes(
+                Timestamps::new(&gpu, COUNT),
+                marker(&gpu).unwrap(),
+            ));
         }
         if gpu.has_timestamps_between_passes() {
-            clocks.push(Clock::Encoder(Queries::new(&gpu)));
+            clocks.push(Clock::Encoder(Timestamps::new(&gpu, COUNT)));
         }
         for clock in clocks {
             let timer = FrameTimer { clock };

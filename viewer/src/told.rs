@@ -1,8 +1,10 @@
-//! Errors as one line for a person.
+//! What a person is told: errors as one line, and what earlier runs have left.
 
 use std::borrow::Cow;
+use std::io::Write;
 
 use welkin_pack::shown;
+use welkin_pack::whole::Leftover;
 
 /// The error and its causes, each of them once: many a message has its cause in it already. Quoted as texts of files are.
 pub fn told(error: &anyhow::Error) -> String {
@@ -16,6 +18,13 @@ pub fn told(error: &anyhow::Error) -> String {
     match shown(&text) {
         Cow::Borrowed(_) => text,
         Cow::Owned(quoted) => quoted,
+    }
+}
+
+/// Tells what earlier runs have left beside an output.
+pub fn tell_leftovers(leftovers: &[Leftover]) {
+    for leftover in leftovers {
+        writeln!(std::io::stderr(), "{leftover}").ok();
     }
 }
 

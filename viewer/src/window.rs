@@ -13,6 +13,7 @@ mod panel;
 mod recipe;
 mod shot;
 mod state;
+mod wake;
 mod watch;
 mod wishes;
 
@@ -21,23 +22,8 @@ use winit::event_loop::EventLoop;
 
 use crate::cli::WindowArgs;
 use app::App;
-use bake::Baked;
 use state::State;
-
-/// What other threads and the device tell the event loop.
-#[derive(Debug)]
-enum Wake {
-    /// A bake goes on: what begins now, and which share is behind it.
-    Baking(&'static str, f32),
-    /// A bake has ended: a sound pack, or why there is none.
-    Baked(Box<Result<Baked, String>>),
-    /// The watched recipe or a file that it names was saved.
-    RecipeSaved,
-    /// The device of this number is gone.
-    DeviceLost(u64, String),
-    /// The device refused something.
-    DeviceError(String),
-}
+use wake::Wake;
 
 /// Opens the window and stays until it is closed.
 ///

@@ -4,16 +4,55 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow};
+use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use welkin_baker::{BakeError, FieldBound, FieldSettings, Notice, Progress, Recipe, Resolved};
-use welkin_pack::pack::{Overwrite, verify_place};
 use welkin_pack::place::verify_apart;
 use welkin_pack::whole::{Folder, IsOurs};
+use welkin_pack::{Overwrite, verify_place};
 use welkin_pack::{Pack, PackError, Role, WriteError};
 
-use super::BakeArgs;
 use super::side::{self, Kind};
 use super::{input, interrupt, output};
+
+#[derive(Debug, Args)]
+pub struct BakeArgs {
+    /// Recipe in TOML; without it the built-in recipe is baked
+    recipe: Option<PathBuf>,
+    /// Folder to make; missing folders above it are made too
+    #[arg(short, long, value_name = "PACK")]
+    output: PathBuf,
+    /// Seed of every random stream, instead of the recipe's
+    #[arg(long, value_name = "N", value_parser = seed, allow_hyphen_values = true)]
+    seed: Option<u64>,
+    /// Threads to use, 1 to 1024; the bytes are the same with any number [default: one a core]
+    #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true)]
+    threads: Option<u16>,
+    /// Replace a pack that is there already, and the folders of --png and --exr; a folder with anything else in it is kept
+    #[arg(long)]
+    force: bool,
+    /// Also write every channel as it is stored: one 8-bit image each, in a new folder
+    #[arg(long, value_name = "DIR")]
+    png: Option<PathBuf>,
+    /// Also write every channel before it is quantised: one float image each, in a new folder
+    #[arg(long, value_name = "DIR")]
+    exr: Option<PathBuf>,
+}
+
+/// More than any machine has today.
+const MOST_THREADS: u16 = 1024;
+
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse()
+        .map_err(|_| format!("expected a whole number from 0 to {}", u64::MAX))
+}
+
+fn threads(text: &str) -> Result<u16, String> {
+    match text.parse() {
+        Ok(count) if (1..=MOST_THREADS).contains(&count) => Ok(count),
+        _ => Err(format!("expected a whole number from 1 to {MOST_THREADS}")),
+    }
+}
 
 pub fn run(args: &BakeArgs) -> Result<()> {
     if let Some(threads) = args.threads {

@@ -3,9 +3,9 @@
 //! 0: the pack is sound. 1: problems were found. 2: it cannot be read at all, what it was baked from is not at hand, or what was
 //! found could not be written. With `--json` the report of `welkin-pack` is printed; docs/checks.md describes it.
 
+mod args;
 mod files;
 
-use std::ffi::OsString;
 use std::process::ExitCode;
 
 use anyhow::{Result, bail};
@@ -13,20 +13,14 @@ use welkin_baker::{RebakeError, decode_texture, rebake};
 use welkin_pack::check::{Examined, Outcome, Report, check_texture, examine};
 use welkin_pack::{Role, Texture};
 
-use super::CheckArgs;
 use super::page::{self, Page};
 use super::{bake, file, input, interrupt, output};
+use args::As;
+pub use args::CheckArgs;
 
 const SOUND: u8 = 0;
 const PROBLEMS: u8 = 1;
 const UNREADABLE: u8 = 2;
-
-/// What `--as` names: a role, or one of its channels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct As {
-    role: Role,
-    channel: Option<usize>,
-}
 
 /// What was found, and what it was found in.
 struct Checked {
@@ -144,45 +138,6 @@ fn keep_channel(report: &mut Report, role: Role, channel: usize) -> Result<()> {
     Ok(())
 }
 
-/// Reads the value of `--as`.
-pub fn parse_as(text: &str) -> Result<As, String> {
-    let (name, channel) = match text.split_once('.') {
-        Some((name, channel)) => (name, Some(channel)),
-        None => (text, None),
-    };
-    let Some(role) = Role::ALL.into_iter().find(|role| role.name() == name) else {
-        let names = Role::ALL.map(Role::name).join(", ");
-        return Err(format!(
-            "expected one of {names}, or one of their channels, such as clouds.noise"
-        ));
-    };
-    let channels = role.spec().channels;
-    let index = |wanted: &str| {
-        let found = channels.iter().position(|c| c.name == wanted);
-        found.ok_or_else(|| {
-            let names: Vec<String> = channels
-                .iter()
-                .map(|c| format!("{name}.{}", c.name))
-                .collect();
-            format!("expected {name}, or one of {}", names.join(", "))
-        })
-    };
-    Ok(As {
-        role,
-        channel: channel.map(index).transpose()?,
-    })
-}
-
-/// Reads a value of `--input`.
-pub fn parse_input(text: &str) -> Result<(String, OsString), String> {
-    match text.split_once('=') {
-        Some((key, file)) if !key.is_empty() && !file.is_empty() => {
-            Ok((key.to_string(), file.into()))
-        }
-        _ => Err("expected KEY=FILE, such as skybox.file=sky.exr".to_string()),
-    }
-}
-
 fn lines(report: &Report) -> String {
     let findings = report.findings.iter();
     let mut text: String = findings.map(|finding| format!("{finding}\n")).collect();
@@ -192,49 +147,7 @@ fn lines(report: &Report) -> String {
         "not sound"
     };
     let [passed, failed, skipped] =
-        [Outcome::Passed, Outcome::Failed, Outcome::Skipped].map(|o| count(report, o));
+        [Outcome::Passed, Outcome::Failed, Outcome::Skipped].map(|o| report.count(o));
     text += &format!("{verdict}: {passed} passed, {failed} failed, {skipped} skipped\n");
     text
-}
-
-/// How many findings came out so.
-pub fn count(report: &Report, outcome: Outcome) -> usize {
-    let findings = report.findings.iter();
-    findings.filter(|f| f.outcome == outcome).count()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_role_or_a_channel_is_named() {
-        let whole = As {
-            role: Role::Stars,
-            channel: None,
-        };
-        assert_eq!(parse_as("stars"), Ok(whole));
-        let noise = As {
-            role: Role::Clouds,
-            channel: Some(1),
-        };
-        assert_eq!(parse_as("clouds.noise"), Ok(noise));
-        assert!(
-            parse_as("cloud")
-                .unwrap_err()
-                .contains("clouds, stars, galaxy")
-        );
-        assert!(
-            parse_as("sun.red")
-                .unwrap_err()
-                .contains("sun.disc, sun.glow")
-        );
-    }
-
-    #[test]
-    fn an_input_has_a_key_and_a_file() {
-        let read = |text| parse_input(text).ok();
-        assert_eq!(read("a.b=c=d"), Some(("a.b".to_string(), "c=d".into())));
-        assert_eq!([read("a"), read("=b"), read("a=")], [None, None, None]);
-    }
 }

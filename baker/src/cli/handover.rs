@@ -9,8 +9,16 @@ use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
 use anyhow::{Result, anyhow};
+use clap::Args;
 
 const PROGRAM: &str = "welkin-view";
+
+#[derive(Debug, Args)]
+pub struct ViewArgs {
+    /// Handed to welkin-view as they are
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+    pub args: Vec<OsString>,
+}
 
 /// Runs `welkin-view [subcommand] args...` in place of this program. Its exit code is ours.
 pub fn run(subcommand: Option<&str>, args: &[OsString]) -> Result<ExitCode> {

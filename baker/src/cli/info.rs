@@ -6,14 +6,25 @@
 mod field;
 
 use std::fmt::Write;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Result;
+use clap::Args;
 use serde_json::json;
 use welkin_pack::manifest::{Channel, FractalNoise, TextureEntry};
 use welkin_pack::{Manifest, Pack, shown};
 
-use super::{PackArgs, output, picture};
+use super::{output, picture};
+
+#[derive(Debug, Args)]
+pub struct PackArgs {
+    /// Folder of the pack
+    pack: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
 
 pub fn run(args: &PackArgs) -> Result<ExitCode> {
     let pack = Pack::open(&args.pack)?;

@@ -5,16 +5,13 @@ use std::io::Read;
 use std::path::Path;
 
 use anyhow::{Result, anyhow, bail};
-use welkin_baker::Recipe;
+use welkin_baker::{MAX_FILE_BYTES, Recipe};
 use welkin_pack::Pack;
 
 use super::interrupt;
 
 /// A recipe has some dozens of lines; what is larger is something else.
 const MAX_RECIPE_BYTES: u64 = 1 << 20;
-
-/// The largest file of a texture or picture.
-const MAX_BYTES: u64 = 256 << 20;
 
 pub fn pack(folder: &Path) -> Result<Pack> {
     let folder = folder.to_path_buf();
@@ -38,7 +35,7 @@ fn read_recipe(path: &Path) -> Result<Recipe> {
 /// The bytes of a file that is no larger than what a bake reads.
 pub fn bytes(path: &Path) -> Result<Vec<u8>> {
     let path = path.to_path_buf();
-    interrupt::unless_requested(move || read(&path, MAX_BYTES, "check its name and size"))?
+    interrupt::unless_requested(move || read(&path, MAX_FILE_BYTES, "check its name and size"))?
 }
 
 fn read(path: &Path, most: u64, advice: &str) -> Result<Vec<u8>> {

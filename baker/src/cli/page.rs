@@ -16,7 +16,6 @@ use anyhow::Result;
 use welkin_pack::check::{Examined, Outcome, Report};
 use welkin_pack::{Field, Role, Texture};
 
-use super::check::count;
 use super::interrupt;
 use findings::{Of, worst};
 use picture::Pictures;
@@ -124,7 +123,7 @@ fn verdict(report: &Report) -> String {
         (true, _) => ("warning", "sound, with warnings"),
         (false, _) => ("error", "not sound"),
     };
-    let [passed, skipped] = [Outcome::Passed, Outcome::Skipped].map(|o| count(report, o));
+    let [passed, skipped] = [Outcome::Passed, Outcome::Skipped].map(|o| report.count(o));
     let warnings = failed - errors;
     format!(
         "<p class=\"verdict {class}\"><strong>{word}</strong> <span>{passed} passed</span> <span>{errors} errors</span> \

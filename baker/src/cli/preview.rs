@@ -1,6 +1,9 @@
 //! `welkin preview`: every channel of every texture on one labelled sheet.
 
+use std::path::PathBuf;
+
 use anyhow::Result;
+use clap::Args;
 use image::imageops::{self, FilterType};
 use image::{ExtendedColorType, GrayImage, Rgb, RgbImage};
 use welkin_pack::manifest::{Channel, TextureEntry};
@@ -8,7 +11,6 @@ use welkin_pack::role::Filter;
 use welkin_pack::texture::unorm8;
 use welkin_pack::{Image, Manifest, Pack, Role, Texture};
 
-use super::PreviewArgs;
 use super::sheet::{self, PANEL, Panel, Section};
 use super::{file, input, interrupt, picture};
 
@@ -17,6 +19,15 @@ const TEXEL_PIXELS: u32 = 2;
 
 /// Brings the brightest sky near to white; the sheet needs no more than that the hues are right.
 const SKY_EXPOSURE: f32 = 1.5;
+
+#[derive(Debug, Args)]
+pub struct PreviewArgs {
+    /// Folder of the pack
+    pack: PathBuf,
+    /// PNG to write; a file of that name is replaced
+    #[arg(short, long, value_name = "FILE.png")]
+    output: PathBuf,
+}
 
 pub fn run(args: &PreviewArgs) -> Result<()> {
     file::verify_png(&args.output, &args.pack)?;

@@ -1,12 +1,24 @@
 //! `welkin unpack`: one grey image a channel and layer, from level 0 of every texture.
 
+use std::path::PathBuf;
+
 use anyhow::Result;
+use clap::Args;
 use welkin_pack::place::verify_apart;
 use welkin_pack::whole::Folder;
 use welkin_pack::{Format, Role};
 
 use super::side::{self, Kind};
-use super::{UnpackArgs, input, output};
+use super::{input, output};
+
+#[derive(Debug, Args)]
+pub struct UnpackArgs {
+    /// Folder of the pack
+    pack: PathBuf,
+    /// Folder to make; one that is there must be empty
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
 
 pub fn run(args: &UnpackArgs) -> Result<()> {
     verify_apart(&[&args.pack], &[&args.output])?;

@@ -20,10 +20,7 @@ const FLAT: f32 = 1e-3;
 /// A channel of `size` texels a side that tiles, with the settings' mean. `name` is its random stream.
 pub(crate) fn channel(settings: &FractalSettings, size: u32, seed: u64, name: &str) -> Image {
     let cells = [f64::from(settings.cells); 2];
-    let octaves = Octaves {
-        count: settings.octaves,
-        gain: f64::from(settings.gain),
-    };
+    let octaves = Octaves::new(settings.octaves, settings.gain);
     let mut stream = Stream::new(seed, name);
     let mut channel = loop {
         let fractal = Fractal::new(cells, octaves, size, &mut stream);

@@ -22,9 +22,9 @@ mod tests;
 
 use welkin_pack::Image;
 
-use crate::error::BakeError;
+use crate::error::{BakeError, unfit};
 use crate::filter::{self, Edge};
-use crate::load::unfit;
+use crate::load;
 use crate::settings::PhotoSettings;
 
 /// The photograph that is used when a recipe names none; assets-src/SOURCES.md says whose it is.
@@ -89,6 +89,21 @@ const CLEAR: f32 = 0.05;
 
 /// Where outliers are bent in, in standard deviations.
 const OUTLIER: f32 = 8.0;
+
+/// A photograph made into a seamless cloud channel: one channel, `settings.size` texels a side, 0..1.
+///
+/// `file_name` names the bytes in errors.
+///
+/// # Errors
+/// [`BakeError::Decode`] or [`BakeError::Photo`].
+pub fn photo_channel(
+    image_bytes: &[u8],
+    file_name: &str,
+    settings: &PhotoSettings,
+) -> Result<Image, BakeError> {
+    let picture = load::decode(image_bytes, file_name)?;
+    channel(&picture, file_name, settings)
+}
 
 /// A photograph (gamma-encoded red, green, blue) becomes a seamless channel of `settings.size` texels a side.
 pub(crate) fn channel(

@@ -2,11 +2,10 @@
 
 use welkin_pack::Image;
 
-use super::photo::{BUILT_IN, BUILT_IN_BLAKE3, BUILT_IN_NAME};
-use crate::bake::photo_channel;
-use crate::error::BakeError;
+use super::photo::{BUILT_IN, BUILT_IN_BLAKE3, BUILT_IN_NAME, photo_channel};
+use crate::error::{BakeError, unfit};
 use crate::inputs::{Named, Reader};
-use crate::load::{MAX_FILE_BYTES, unfit};
+use crate::load::MAX_FILE_BYTES;
 use crate::settings::PhotoSettings;
 
 /// The key of the photograph in the recipe.

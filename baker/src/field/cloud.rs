@@ -2,7 +2,8 @@
 
 use welkin_pack::field::{COLOUR_LEVELS, Cloud, CloudBox, CloudKind, ColourLevel, bounds};
 
-use super::{cull, place, snapped};
+use super::grid::snapped;
+use super::{cull, place};
 use crate::settings::BoxSettings;
 use crate::stream::Stream;
 

@@ -52,7 +52,7 @@ mod tests {
         (0..count)
             .map(|i| Sprite {
                 centre_m: std::array::from_fn(|_| {
-                    crate::field::snapped((side_m * (stream.unit() - 0.5)) as f32)
+                    crate::field::grid::snapped((side_m * (stream.unit() - 0.5)) as f32)
                 }),
                 size_m: [200.0; 2],
                 rotation_rad: 0.0,

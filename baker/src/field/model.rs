@@ -5,6 +5,7 @@
 //! with the property `cell` is a sprite (`sprites.rs`); [`cloud_model`] writes a cloud in that way, for an artist to edit and to bake again.
 
 mod extras;
+mod node;
 mod sprites;
 #[cfg(test)]
 mod tests;
@@ -12,14 +13,15 @@ mod write;
 
 use std::collections::BTreeMap;
 
-use gltf::{Document, Gltf, Node, Semantic};
+use gltf::{Document, Gltf, Node};
 
 use super::boxes::{self, Fault, PLACES_M, SIZES_M};
 use super::cloud::groups;
-use crate::error::BakeError;
+use crate::error::{BakeError, model_error};
 use crate::settings::{BoxSettings, PlacedSprite};
 use welkin_pack::limits::MAX_GROUPS;
 
+use node::{IDENTITY, Matrix, corners, product, transformed};
 pub use write::cloud_model;
 
 /// The largest file: boxes take a few kilobytes.
@@ -32,9 +34,6 @@ const MAX_VALUES: usize = 1 << 18;
 /// The most nodes that are visited, and how deep they may be nested: a file may name a node twice, or within itself.
 const MAX_NODES: usize = 4096;
 const MAX_DEPTH: usize = 64;
-
-/// A matrix as glTF has it, column by column.
-type Matrix = [[f32; 4]; 4];
 
 /// The boxes of a model, in the order of its nodes. `file` names it in errors.
 ///
@@ -186,52 +185,5 @@ impl Visit<'_> {
              }| unfit(key, found, expected),
         )?;
         Ok(found)
-    }
-}
-
-/// The corners of the box around the positions of a node's mesh.
-fn corners(node: &Node) -> Option<[[f32; 3]; 8]> {
-    let mut bounds: Option<[[f32; 3]; 2]> = None;
-    for primitive in node.mesh()?.primitives() {
-        let positions = primitive.get(&Semantic::Positions)?;
-        let low: [f32; 3] = serde_json::from_value(positions.min()?).ok()?;
-        let high: [f32; 3] = serde_json::from_value(positions.max()?).ok()?;
-        let [before_low, before_high] = bounds.unwrap_or([low, high]);
-        let axes = [0, 1, 2];
-        bounds = Some([
-            axes.map(|axis| low[axis].min(before_low[axis])),
-            axes.map(|axis| high[axis].max(before_high[axis])),
-        ]);
-    }
-    let bounds = bounds?;
-    let corner = |n: usize| [0, 1, 2].map(|axis| bounds[n >> axis & 1][axis]);
-    Some([0, 1, 2, 3, 4, 5, 6, 7].map(corner))
-}
-
-const IDENTITY: Matrix = [
-    [1.0, 0.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0, 0.0],
-    [0.0, 0.0, 1.0, 0.0],
-    [0.0, 0.0, 0.0, 1.0],
-];
-
-fn product(a: &Matrix, b: &Matrix) -> Matrix {
-    b.map(|column| {
-        let row = |i: usize| (0..4).map(|k| a[k][i] * column[k]).sum();
-        [row(0), row(1), row(2), row(3)]
-    })
-}
-
-fn transformed(matrix: &Matrix, [x, y, z]: [f32; 3]) -> [f32; 3] {
-    let row = |i: usize| matrix[0][i] * x + matrix[1][i] * y + matrix[2][i] * z + matrix[3][i];
-    [row(0), row(1), row(2)]
-}
-
-fn model_error(file: &str, key: &str, found: String, expected: &str) -> BakeError {
-    BakeError::Model {
-        file: file.to_string(),
-        key: key.to_string(),
-        found,
-        expected: expected.to_string(),
     }
 }

@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use welkin_pack::SheetCell;
 use welkin_pack::field::{Category, CloudBox, Sprite, rounded_rotation};
 
-use super::snapped;
+use super::grid::snapped;
 use crate::settings::{BoxSettings, PlacedSprite};
 use crate::sprites::FLOOR;
 use crate::stream::Stream;

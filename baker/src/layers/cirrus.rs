@@ -5,7 +5,6 @@
 
 use welkin_pack::Image;
 
-use super::octaves;
 use crate::filter;
 use crate::fractal::{Fractal, Octaves};
 use crate::settings::LayerSettings;
@@ -33,7 +32,10 @@ pub(super) fn field(settings: &LayerSettings, size: u32, stream: &mut Stream) ->
     let two = |gain| Octaves { count: 2, gain };
     let bends = fractal([BENDS * cells; 2], two(0.3));
     let patches = fractal(PATCHES.map(|n| n * cells), two(0.5));
-    let fibres = fractal([FIBRES[0], FIBRES[1] * cells], octaves(settings));
+    let fibres = fractal(
+        [FIBRES[0], FIBRES[1] * cells],
+        Octaves::new(settings.octaves, settings.gain),
+    );
     let [along, across, by_patches] = DISPLACEMENT.map(|d| d / cells);
     filter::tile(size, |point| {
         let (bend, patch) = (bends.at(point), patches.at(point));

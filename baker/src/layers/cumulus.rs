@@ -6,7 +6,6 @@
 use welkin_pack::Image;
 
 use super::cells::{Cells, Lumps, Neighbour};
-use super::octaves;
 use crate::filter;
 use crate::fractal::{Fractal, Octaves};
 use crate::settings::LayerSettings;
@@ -41,7 +40,7 @@ pub(super) fn field(settings: &LayerSettings, size: u32, stream: &mut Stream) ->
     });
     let lumps = Lumps::new(
         LUMPS_A_CELL * settings.cells,
-        octaves(settings),
+        Octaves::new(settings.octaves, settings.gain),
         size,
         stream,
     );

@@ -6,7 +6,6 @@
 use welkin_pack::Image;
 
 use super::cells::Lumps;
-use super::octaves;
 use crate::filter;
 use crate::fractal::{Fractal, Octaves};
 use crate::settings::LayerSettings;
@@ -30,7 +29,12 @@ const ROLL_STRENGTH: f64 = 0.35;
 /// Density before it is brought to its range.
 pub(super) fn field(settings: &LayerSettings, size: u32, stream: &mut Stream) -> Image {
     let cells = f64::from(settings.cells);
-    let lumps = Lumps::new(settings.cells, octaves(settings), size, stream);
+    let lumps = Lumps::new(
+        settings.cells,
+        Octaves::new(settings.octaves, settings.gain),
+        size,
+        stream,
+    );
     let mut fractal = |cells: [f64; 2], count| {
         let octaves = Octaves { count, gain: 0.5 };
         Fractal::new(cells, octaves, size, stream)

@@ -9,8 +9,8 @@ use exr::meta::header::Header;
 use exr::prelude::{ReadChannels, ReadLayers, read};
 use welkin_pack::Image;
 
-use super::{primaries, unfit};
-use crate::error::BakeError;
+use super::primaries;
+use crate::error::{BakeError, unfit};
 
 /// Red, green and blue times alpha, as the format stores them, and alpha.
 pub(super) fn decode(

@@ -7,8 +7,8 @@ use image::ImageDecoder;
 use image::codecs::hdr::HdrDecoder;
 use welkin_pack::Image;
 
-use super::{primaries, unfit};
-use crate::error::BakeError;
+use super::primaries;
+use crate::error::{BakeError, unfit};
 
 /// The first bytes of such files; the second is that of some older programs.
 const SIGNATURES: [&[u8]; 2] = [b"#?RADIANCE", b"#?RGBE"];

@@ -1,7 +1,6 @@
 //! Colours of which primaries a picture has.
 
-use super::unfit;
-use crate::error::BakeError;
+use crate::error::{BakeError, unfit};
 
 /// ITU-R BT.709-6, item 1.3 and 1.4: red, green, blue and white as x, y; what a file that says nothing means.
 const BT_709: [[f32; 2]; 4] = [

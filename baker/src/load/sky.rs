@@ -3,8 +3,9 @@
 use image::{DynamicImage, ImageFormat, Rgba};
 use welkin_pack::Image;
 
-use super::{MAX_SIDE, decode_stored, exr, hdr, unfit, unfit_size};
-use crate::error::BakeError;
+use super::stored::{MAX_SIDE, decode_stored};
+use super::{exr, hdr};
+use crate::error::{BakeError, unfit, unfit_size};
 use crate::inputs::Picture;
 
 /// The most texels of a sky: 8192x4096, which take 512 MiB as floats.

@@ -8,9 +8,9 @@ use image::{DynamicImage, ImageFormat};
 use welkin_pack::role::RoleSpec;
 use welkin_pack::{Format, Image, Role, Shape, Texture, ktx};
 
-use super::{MAX_FILE_BYTES, MAX_SIDE, decode_stored, exr as open_exr, unfit, unfit_size};
-use crate::error::BakeError;
-use crate::inputs::too_long;
+use super::exr as open_exr;
+use super::stored::{MAX_FILE_BYTES, MAX_SIDE, decode_stored};
+use crate::error::{BakeError, too_long, unfit, unfit_size};
 
 /// A texture from a file, laid out as its role asks.
 #[derive(Clone, Debug, PartialEq)]

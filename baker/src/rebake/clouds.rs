@@ -4,7 +4,7 @@ use welkin_pack::Field;
 use welkin_pack::check::{Examined, Finding, Outcome};
 use welkin_pack::field::{Cloud, CloudBox, Sprite};
 
-use super::{counted, finding, skipped};
+use super::finding::{counted, finding, skipped};
 
 const SUBJECT: &str = "field";
 

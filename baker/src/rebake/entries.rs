@@ -5,7 +5,7 @@ use welkin_pack::Manifest;
 use welkin_pack::check::Finding;
 use welkin_pack::manifest::MANIFEST_FILE;
 
-use super::counted;
+use super::finding::counted;
 
 /// What tells how files were compressed, or follows from all else.
 const LEFT_OUT: [&str; 4] = ["seal", "baker", "file_bytes", "file_blake3"];

@@ -3,7 +3,7 @@
 use welkin_pack::check::{Examined, Finding, Outcome};
 use welkin_pack::{Format, Pack, Role, Shape, Texture};
 
-use super::{counted, finding, skipped};
+use super::finding::{counted, finding, skipped};
 
 /// A finding a channel of every role that either has.
 pub(super) fn compare(examined: &Examined, fresh: &Pack) -> Vec<Finding> {

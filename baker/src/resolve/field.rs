@@ -11,7 +11,8 @@ use welkin_pack::limits::{MAX_HOURS, MAX_SECTIONS, MAX_SPRITES};
 
 use crate::error::RecipeError;
 use crate::field::{kinds, light};
-use crate::recipe::{CloudLayer, Entry, FieldTable, HourTable, Model, Recipe};
+use crate::recipe::Recipe;
+use crate::recipe::tables::{CloudLayer, Entry, FieldTable, HourTable, Model};
 use crate::settings::{CloudLayerSettings, FieldSettings, ModelSettings, ModelSource};
 
 /// The most that a list of a recipe may have: layers, models, boxes of a model.

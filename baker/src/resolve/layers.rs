@@ -3,7 +3,8 @@
 use welkin_pack::LayerKind;
 
 use crate::error::RecipeError;
-use crate::recipe::{Layer, Recipe};
+use crate::recipe::Recipe;
+use crate::recipe::tables::Layer;
 use crate::settings::{LayerSettings, LayersSettings};
 
 /// Root mean square slopes: less than the least would be lost in bytes, more than the most would be all walls.

@@ -4,7 +4,7 @@ use toml::Spanned;
 
 use super::Recipe;
 use crate::error::RecipeError;
-use crate::recipe::{Entry, Faces, Skybox};
+use crate::recipe::tables::{Entry, Faces, Skybox};
 use crate::settings::{SkyboxPicture, SkyboxSettings};
 
 const FILE: &str = "the path of a PNG, JPEG, Radiance HDR or OpenEXR file, as text";

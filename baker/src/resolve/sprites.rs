@@ -4,7 +4,7 @@ use toml::{Spanned, Value};
 
 use super::Recipe;
 use crate::error::RecipeError;
-use crate::recipe::Entry;
+use crate::recipe::tables::Entry;
 use crate::settings::{SpriteShape, SpriteSource, SpritesSettings};
 
 const FILE: &str = "the path of a PNG or OpenEXR file with alpha, as text";

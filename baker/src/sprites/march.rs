@@ -9,6 +9,9 @@
 use rayon::prelude::*;
 use welkin_pack::Image;
 
+/// Nothing of a sprite lies farther from the middle of its cell, whose half side is 1.
+pub(super) const REACH: f32 = 0.84;
+
 /// A small cloud in the cube from -1 to 1: x to the right, y up, z towards the viewer.
 pub(super) trait Body: Sync {
     /// Length of a step through it.

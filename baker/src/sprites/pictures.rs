@@ -2,10 +2,10 @@
 
 use welkin_pack::{Image, SheetCell};
 
-use crate::error::BakeError;
+use crate::error::{BakeError, unfit, unfit_size};
 use crate::filter;
 use crate::inputs::{Named, Picture, Reader};
-use crate::load::{self, MAX_FILE_BYTES, MAX_RADIANCE, unfit, unfit_size};
+use crate::load::{self, MAX_FILE_BYTES, MAX_RADIANCE};
 use crate::settings::{SpriteSource, SpritesSettings};
 
 /// Sides that a cell may have in a picture, in texels.

@@ -2,8 +2,8 @@
 
 use std::f32::consts::TAU;
 
-use super::march::{Body, Medium};
-use super::{REACH, Volumes, between, place_of};
+use super::march::{Body, Medium, REACH};
+use super::volume::{Volumes, place_of};
 use crate::filter;
 use crate::settings::SpriteShape;
 use crate::stream::Stream;
@@ -159,19 +159,19 @@ impl Ball {
 
     /// A ball at the side of a puff; `turn` is 0 to the right, 0.25 above.
     fn around(turn: f32, stream: &mut Stream) -> Ball {
-        let radius = between(AROUND, stream);
-        let far = (REACH - radius) * between([0.82, 1.0], stream);
+        let radius = stream.between(AROUND);
+        let far = (REACH - radius) * stream.between([0.82, 1.0]);
         let [x, y] = [libm::cosf(TAU * turn), libm::sinf(TAU * turn)].map(|c| far * c);
-        Ball::new([x, y, between([-0.1, 0.35], stream)], radius)
+        Ball::new([x, y, stream.between([-0.1, 0.35])], radius)
     }
 }
 
 /// A ball with others all around it.
 fn cluster(stream: &mut Stream) -> Vec<Ball> {
-    let mut balls = vec![Ball::new([0.0; 3], between(MIDDLE, stream))];
-    let first = between([0.0, 1.0], stream);
+    let mut balls = vec![Ball::new([0.0; 3], stream.between(MIDDLE))];
+    let first = stream.between([0.0, 1.0]);
     for i in 0..COUNT {
-        let turn = (i as f32 + between([-0.35, 0.35], stream)) / COUNT as f32;
+        let turn = (i as f32 + stream.between([-0.35, 0.35])) / COUNT as f32;
         balls.push(Ball::around(first + turn, stream));
     }
     balls
@@ -180,16 +180,16 @@ fn cluster(stream: &mut Stream) -> Vec<Ball> {
 /// Balls side by side on the floor, and others around and above them.
 fn heap(stream: &mut Stream) -> Vec<Ball> {
     let base = BASE.map(|x| {
-        let near = between([0.0, 0.2], stream);
-        Ball::new([x, FLOOR + BASE_HEIGHT, near], between(BASE_RADII, stream))
+        let near = stream.between([0.0, 0.2]);
+        Ball::new([x, FLOOR + BASE_HEIGHT, near], stream.between(BASE_RADII))
     });
     let mut balls = Vec::from(base);
     balls.push(Ball::new(
         [0.0, FLOOR + HEART_HEIGHT, 0.0],
-        between(MIDDLE, stream),
+        stream.between(MIDDLE),
     ));
     for i in 0..UPPER_COUNT {
-        let turn = 0.5 * (i as f32 + between([0.15, 0.85], stream)) / UPPER_COUNT as f32;
+        let turn = 0.5 * (i as f32 + stream.between([0.15, 0.85])) / UPPER_COUNT as f32;
         balls.push(Ball::around(turn, stream));
     }
     balls

@@ -1,7 +1,7 @@
 //! Fog, which is smooth, and wisps, which are torn.
 
-use super::march::{Body, Medium};
-use super::{REACH, Volumes, between, place_of};
+use super::march::{Body, Medium, REACH};
+use super::volume::{Volumes, place_of};
 use crate::filter::smoothstep;
 use crate::settings::SpriteShape;
 use crate::stream::Stream;
@@ -54,8 +54,8 @@ impl<'a> Fog<'a> {
             volumes,
             origin: place_of(stream),
             radii: [
-                between([0.9, 1.0], stream),
-                between([0.75, 0.95], stream),
+                stream.between([0.9, 1.0]),
+                stream.between([0.75, 0.95]),
                 0.75,
             ],
             gain: 0.5 * shape.detail,
@@ -108,13 +108,13 @@ pub(super) struct Wisp<'a> {
 impl<'a> Wisp<'a> {
     pub(super) fn new(volumes: &'a Volumes, shape: &SpriteShape, stream: &mut Stream) -> Wisp<'a> {
         let origin = place_of(stream);
-        let angle = between([-0.7, 0.7], stream);
+        let angle = stream.between([-0.7, 0.7]);
         Wisp {
             volumes,
             origin,
             along: [libm::cosf(angle), libm::sinf(angle)],
-            curl: between([0.14, 0.30], stream),
-            extent: [REACH, REACH * between([0.5, 0.9], stream), 1.0],
+            curl: stream.between([0.14, 0.30]),
+            extent: [REACH, REACH * stream.between([0.5, 0.9]), 1.0],
             gain: 0.55 * shape.detail,
         }
     }

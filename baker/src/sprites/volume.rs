@@ -131,6 +131,17 @@ impl NoiseHasher for Lattice {
     }
 }
 
+/// The noise that all sprites are cut from.
+pub(super) struct Volumes {
+    pub gradients: Volume,
+    pub lumps: Volume,
+}
+
+/// A random place in a volume, in cells.
+pub(super) fn place_of(stream: &mut Stream) -> [f32; 3] {
+    [(); 3].map(|()| stream.between([0.0, CELLS as f32]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

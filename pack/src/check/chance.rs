@@ -39,6 +39,15 @@ pub(super) fn chi_squared_deviate(value: f64, freedom: f64) -> f64 {
     (libm::cbrt(value / freedom) - (1.0 - a)) / libm::sqrt(a)
 }
 
+/// The largest distance of a byte value's count from an equal share of all.
+pub(super) fn unevenness(bytes: impl Iterator<Item = u8>) -> usize {
+    let mut counts = [0_usize; 256];
+    bytes.for_each(|byte| counts[usize::from(byte)] += 1);
+    let share = counts.iter().sum::<usize>() / counts.len();
+    let distances = counts.iter().map(|count| count.abs_diff(share));
+    distances.max().unwrap_or(0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

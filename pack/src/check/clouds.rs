@@ -2,16 +2,18 @@
 
 mod character;
 
-use super::report::{Bound, Report};
+use super::report::{Bound, Report, subject};
 use super::rule::{
     CLOUD_APART, CLOUD_BAND, CLOUD_CLEAR, CLOUD_COVER, CLOUD_MEAN, CLOUD_SPREAD, CLOUD_WAVES,
     GRADIENT_ENDS, GRADIENT_MONOTONE, GRADIENT_STEP,
 };
 use super::spectrum::Spectrum;
-use super::{subject, tiling};
+use super::tiling;
+use crate::format::Format;
 use crate::manifest::{FractalNoise, TextureEntry};
+use crate::role::Role;
+use crate::texture::Texture;
 use crate::view::View;
-use crate::{Format, Role, Texture};
 
 const PHOTO: usize = 0;
 const NOISE: usize = 1;

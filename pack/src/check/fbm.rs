@@ -3,13 +3,14 @@
 mod band;
 
 use super::chance::FALSE_ALARMS;
-use super::report::{Bound, Report};
+use super::report::{Bound, Report, subject};
 use super::rule::{DISPLACED, OCTAVE_BAND, OCTAVE_EVEN};
 use super::spectrum::Spectrum;
-use super::{subject, tiling};
+use super::tiling;
 use crate::mapping::{FBM_LEAST_CELLS, FBM_STEPS_A_TILE};
+use crate::role::Role;
+use crate::texture::Texture;
 use crate::view::View;
-use crate::{Role, Texture};
 use band::Interpolation;
 
 /// The channel of the noise itself; the channels before it are three, two and one steps away.

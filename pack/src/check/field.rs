@@ -5,8 +5,7 @@ use super::rule::{
     FIELD_BOXES, FIELD_COUNTS, FIELD_CULL, FIELD_HOURS, FIELD_INDEX, FIELD_LIGHT, FIELD_RANGE,
     FIELD_RANK, FIELD_SIZE, FIELD_SPREAD,
 };
-use crate::Field;
-use crate::field::{Cloud, Hour, Sprite};
+use crate::field::{Cloud, Field, Hour, Sprite};
 use crate::manifest::FieldEntry;
 
 /// What reports call it.

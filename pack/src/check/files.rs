@@ -1,15 +1,18 @@
 //! The files of a pack: seal, manifest, hashes, containers, layouts.
 
-use super::report::Report;
+use super::report::{Report, subject};
 use super::rule::{
-    CONTAINER, FIELD_FILE, FILE_HASH, LAYOUT, MANIFEST, ROLES, SEAL, STATISTICS, TEXEL_HASH,
+    CONTAINER, FIELD_FILE, FILE_HASH, LAYOUT, MANIFEST, ROLES, Rule, SEAL, STATISTICS, TEXEL_HASH,
 };
-use super::{field, report::Bound, subject};
-use crate::field::glb;
+use super::{field, report::Bound};
+use crate::error::PackError;
+use crate::field::{Field, glb};
+use crate::ktx;
 use crate::limits::{MAX_FIELD_BYTES, MAX_FILE_BYTES, MAX_MANIFEST_BYTES};
-use crate::manifest::{FieldEntry, MANIFEST_FILE, TextureEntry};
+use crate::manifest::{FieldEntry, MANIFEST_FILE, Manifest, TextureEntry};
 use crate::read::join;
-use crate::{Field, Manifest, PackError, Role, Texture, ktx};
+use crate::role::Role;
+use crate::texture::Texture;
 
 /// Gives the bytes of a file of at most so many.
 type Read<'a> = &'a dyn Fn(&str, u64) -> Result<Vec<u8>, PackError>;
@@ -113,7 +116,7 @@ fn check_entry(report: &mut Report, place: Place, entry: &TextureEntry) -> Optio
     Some(texture)
 }
 
-fn skip(report: &mut Report, entry: &TextureEntry, rules: &[super::Rule], why: &str) {
+fn skip(report: &mut Report, entry: &TextureEntry, rules: &[Rule], why: &str) {
     for rule in rules {
         report.skip(*rule, entry.role.name(), why);
     }

@@ -2,7 +2,9 @@
 
 use super::report::{Bound, Report};
 use super::rule::FINITE;
-use crate::{Format, Role, Texture};
+use crate::format::Format;
+use crate::role::Role;
+use crate::texture::Texture;
 
 /// Counts what is not a finite number, on every level: a comparison with it holds no bound, and filters spread it.
 pub(super) fn check(report: &mut Report, role: Role, texture: &Texture) -> bool {

@@ -2,8 +2,10 @@
 
 use super::report::{Bound, Report};
 use super::rule::{FLARE_CELLS, FLARE_SHAPE};
+use crate::mapping::FlareCell;
+use crate::role::Role;
+use crate::texture::Texture;
 use crate::view::View;
-use crate::{FlareCell, Role, Texture};
 
 const NAME: &str = Role::Flares.name();
 

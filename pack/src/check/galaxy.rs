@@ -3,8 +3,9 @@
 use super::report::{Bound, Report};
 use super::rule::{GALAXY_BAND, GALAXY_BRIGHTNESS};
 use crate::mapping::galaxy_uv_to_direction;
+use crate::role::Role;
+use crate::texture::Texture;
 use crate::view::View;
-use crate::{Role, Texture};
 
 /// The largest share of the light's second moment across a band: half way between none and the third of an even sky.
 const MOST_ACROSS: f64 = 1.0 / 6.0;

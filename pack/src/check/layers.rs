@@ -2,14 +2,16 @@
 
 mod normals;
 
-use super::report::{Bound, Report};
+use super::chance::unevenness;
+use super::report::{Bound, Report, subject};
 use super::rule::{
     CLOUD_SPREAD, LAYER_MEAN, NORMAL_SLOPE, NORMAL_UNIT, RANK_FLAT, RANK_ORDER, SEAM,
 };
-use super::{subject, tiling, unevenness};
-use crate::texture::unorm8;
-use crate::view::{Texel, View};
-use crate::{LayerKind, Role, Texture};
+use super::tiling;
+use crate::layer_kind::LayerKind;
+use crate::role::Role;
+use crate::texture::{Texture, unorm8};
+use crate::view::View;
 
 const DENSITY: usize = 2;
 const RANK: usize = 3;
@@ -106,17 +108,6 @@ fn check_ranks(report: &mut Report, image: View, kind: LayerKind) {
     report.measure(RANK_FLAT, &name, uneven as f64, Bound::AtMost(0.0));
     let fall = f64::from(largest_fall(pairs));
     report.measure(RANK_ORDER, &name, fall, Bound::AtMost(0.0));
-}
-
-/// The four texels that a texel of the next level is made from.
-fn under(above: View, x: u32, y: u32) -> [Texel; 4] {
-    let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
-    corners.map(|(i, j)| above.texel(2 * x + i, 2 * y + j))
-}
-
-fn texels(image: View) -> impl Iterator<Item = (u32, u32)> + use<> {
-    let (width, height) = (image.width, image.height);
-    (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
 }
 
 /// By how many steps the rank of a texel is above that of a denser one at most.

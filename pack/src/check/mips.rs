@@ -1,10 +1,11 @@
 //! Levels are means of those above them.
 
-use super::report::{Bound, Report};
+use super::report::{Bound, Report, subject};
 use super::rule::{LEVEL_MEAN, MIP_MEAN};
-use super::subject;
+use crate::format::Format;
+use crate::role::Role;
+use crate::texture::Texture;
 use crate::view::View;
-use crate::{Format, Role, Texture};
 
 /// Checks every channel that is averaged over area. Levels of stars and sprites, the sunset gradient and normals have
 /// rules of their own.

@@ -16,6 +16,7 @@ mod layers;
 mod mips;
 mod octaves;
 mod report;
+mod role;
 mod rule;
 mod sky;
 mod skybox;
@@ -37,10 +38,15 @@ pub use rule::{RULES, Rule, Severity};
 pub use spectrum::radial_spectrum;
 pub use texture::check_texture;
 
-use crate::manifest::TextureEntry;
+use crate::error::PackError;
+use crate::field::Field;
+use crate::manifest::Manifest;
+use crate::pack::Pack;
 use crate::read::{in_folder, in_memory};
-use crate::{Field, Manifest, Pack, PackError, Role, Texture};
+use crate::role::Role;
+use crate::texture::Texture;
 use files::Place;
+use role::{Claim, check_role};
 
 /// Checks the pack in a folder.
 ///
@@ -136,58 +142,4 @@ fn check_place(
     }
     report.sort();
     Ok((report, manifest, field))
-}
-
-/// What a manifest says that rules rely on; nothing of a texture that is in no pack.
-#[derive(Clone, Copy, Default)]
-struct Claim<'a> {
-    /// The texture's entry.
-    entry: Option<&'a TextureEntry>,
-    /// Elevation of the sun at noon.
-    noon_elevation_rad: Option<f32>,
-}
-
-impl Claim<'_> {
-    fn new(manifest: &Manifest, role: Role) -> Claim<'_> {
-        Claim {
-            entry: manifest.texture(role),
-            noon_elevation_rad: Some(manifest.noon_elevation_rad),
-        }
-    }
-}
-
-/// The rules about the texels of a role. The texture is laid out as the role asks, with all levels.
-fn check_role(report: &mut Report, role: Role, texture: &Texture, claim: Claim) {
-    if !finite::check(report, role, texture) {
-        // No figure of what is not a number means anything.
-        return;
-    }
-    mips::check(report, role, texture);
-    match role {
-        Role::Clouds => clouds::check(report, texture, claim.entry),
-        Role::Stars => stars::check(report, texture),
-        Role::Galaxy => galaxy::check(report, texture),
-        Role::Sky => sky::check(report, texture, claim.noon_elevation_rad),
-        Role::Sun => sun::check(report, texture),
-        Role::Octaves => octaves::check(report, texture),
-        Role::Fbm => fbm::check(report, texture),
-        Role::Flares => flares::check(report, texture),
-        Role::Layers => layers::check(report, texture),
-        Role::Sprites => sprites::check(report, texture),
-        Role::Skybox => skybox::check(report, texture),
-    }
-}
-
-/// The largest distance of a byte value's count from an equal share of all.
-fn unevenness(bytes: impl Iterator<Item = u8>) -> usize {
-    let mut counts = [0_usize; 256];
-    bytes.for_each(|byte| counts[usize::from(byte)] += 1);
-    let share = counts.iter().sum::<usize>() / counts.len();
-    let distances = counts.iter().map(|count| count.abs_diff(share));
-    distances.max().unwrap_or(0)
-}
-
-/// `role.channel`, as reports name a channel.
-fn subject(role: Role, channel: usize) -> String {
-    format!("{}.{}", role.name(), role.spec().channels[channel].name)
 }

@@ -3,12 +3,12 @@
 //! The statistical rule compares a channel with independent random numbers, and is set so that it blames
 //! such a channel once in a million.
 
-use super::chance::{FALSE_ALARMS, chi_squared_deviate};
-use super::report::{Bound, Report};
+use super::chance::{FALSE_ALARMS, chi_squared_deviate, unevenness};
+use super::report::{Bound, Report, subject};
 use super::rule::{NOISE_FLAT, NOISE_WHITE};
 use super::spectrum::Spectrum;
-use super::{subject, unevenness};
-use crate::{Role, Texture};
+use crate::role::Role;
+use crate::texture::Texture;
 
 /// Bands of wave numbers, each an octave wide, to the shortest wave of 32 texels.
 const BANDS: [[usize; 2]; 4] = [[1, 2], [3, 4], [5, 8], [9, 16]];

@@ -5,7 +5,8 @@ use std::fmt;
 use serde::Serialize;
 
 use super::rule::{RULES, Rule, Severity};
-use crate::shown;
+use crate::role::Role;
+use crate::shown::shown;
 
 /// How a rule came out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -106,6 +107,12 @@ impl Report {
         self.findings
             .iter()
             .filter(|f| f.outcome == Outcome::Failed)
+    }
+
+    /// How many findings came out so.
+    pub fn count(&self, outcome: Outcome) -> usize {
+        let findings = self.findings.iter();
+        findings.filter(|f| f.outcome == outcome).count()
     }
 
     /// The report as JSON: `{"sound": bool, "findings": [...]}`. docs/checks.md documents the keys.
@@ -236,4 +243,9 @@ impl fmt::Display for Bound {
             Bound::Within(least, most) => write!(f, "{} to {}", short(*least), short(*most)),
         }
     }
+}
+
+/// `role.channel`, as reports name a channel.
+pub(super) fn subject(role: Role, channel: usize) -> String {
+    format!("{}.{}", role.name(), role.spec().channels[channel].name)
 }

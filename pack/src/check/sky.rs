@@ -3,8 +3,9 @@
 use super::report::{Bound, Report};
 use super::rule::{SKY_COLOUR, SKY_DAY, SKY_HOURS, SKY_NIGHT, SKY_RANGE, SKY_STEP};
 use crate::mapping::{night_share, sun_direction};
+use crate::role::Role;
+use crate::texture::Texture;
 use crate::view::View;
-use crate::{Role, Texture};
 
 const NAME: &str = Role::Sky.name();
 

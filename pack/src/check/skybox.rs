@@ -1,11 +1,11 @@
 //! The skybox.
 
-use super::report::{Bound, Report};
+use super::report::{Bound, Report, subject};
 use super::rule::{SKYBOX_CLIP, SKYBOX_RANGE, SKYBOX_SEAM};
-use super::subject;
 use crate::mapping::cube_texel;
+use crate::role::Role;
+use crate::texture::Texture;
 use crate::view::{Texel, View};
-use crate::{Role, Texture};
 
 const NAME: &str = Role::Skybox.name();
 const COVER: usize = 3;

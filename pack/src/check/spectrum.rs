@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::Image;
+use crate::image::Image;
 
 /// A complex number: real and imaginary part.
 type Complex = [f64; 2];

@@ -1,13 +1,13 @@
 //! The sheet of cloud sprites.
 
-use super::report::{Bound, Report};
+use super::report::{Bound, Report, subject};
 use super::rule::{
     SPRITE_BORDER, SPRITE_CELLS, SPRITE_CORE, SPRITE_FLAT, SPRITE_FOG, SPRITE_GREY, SPRITE_LEVEL,
 };
-use super::subject;
-use crate::texture::unorm8;
+use crate::mapping::{SheetCell, SheetKind};
+use crate::role::Role;
+use crate::texture::{Texture, unorm8};
 use crate::view::{Texel, View};
-use crate::{Role, SheetCell, SheetKind, Texture};
 
 const NAME: &str = Role::Sprites.name();
 const GREY: usize = 0;

@@ -10,7 +10,8 @@ use super::rule::{
     STAR_PHASE, STAR_RATE, STAR_RECORD, STAR_SHARE,
 };
 use super::spectrum::Spectrum;
-use crate::{Role, Texture};
+use crate::role::Role;
+use crate::texture::Texture;
 
 const NAME: &str = Role::Stars.name();
 

@@ -1,10 +1,10 @@
 //! The sun's disc and glow.
 
-use super::report::{Bound, Report};
+use super::report::{Bound, Report, subject};
 use super::rule::{SUN_BORDER, SUN_DISC, SUN_ROUND};
-use super::subject;
+use crate::role::Role;
+use crate::texture::Texture;
 use crate::view::View;
-use crate::{Role, Texture};
 
 const DISC: usize = 0;
 

@@ -14,9 +14,14 @@ use std::fs;
 use std::path::Path;
 
 use super::{Outcome, RULES, Report, Severity, check, check_memory};
-use crate::manifest::MANIFEST_FILE;
+use crate::build::PackInfo;
+use crate::image::Image;
+use crate::ktx;
+use crate::manifest::{MANIFEST_FILE, Manifest};
+use crate::pack::Pack;
+use crate::role::Role;
 use crate::test_pack::{Stream, half_float_pack, info, pack, sources, with, with_texture, write};
-use crate::{Image, Manifest, Pack, PackInfo, Role, Texture, ktx};
+use crate::texture::Texture;
 
 fn check_pack(pack: &Pack) -> Report {
     let folder = tempfile::tempdir().unwrap();

@@ -1,9 +1,11 @@
 //! The rules for a texture alone, before it is in any pack.
 
 use super::report::{Outcome, Report};
+use super::role::{Claim, check_role};
 use super::rule::{LAYOUT, LEVEL_MEAN, MIP_MEAN, Rule, SPRITE_LEVEL, STAR_LIGHT, STAR_RECORD};
-use super::{Claim, check_role};
-use crate::{Role, Texture, mip};
+use crate::mip;
+use crate::role::Role;
+use crate::texture::Texture;
 
 /// The rules that only compare stored levels with each other.
 const ABOUT_STORED_LEVELS: [Rule; 5] =

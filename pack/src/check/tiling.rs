@@ -1,10 +1,11 @@
 //! Seams and smoothness of channels that tile.
 
-use super::report::{Bound, Report};
+use super::report::{Bound, Report, subject};
 use super::rule::{SEAM, SMOOTH};
-use super::subject;
+use crate::format::Format;
+use crate::role::Role;
+use crate::texture::Texture;
 use crate::view::View;
-use crate::{Format, Role, Texture};
 
 /// Compares the step across the edges with the steps inside, on both axes of every layer. Level 0 is enough: the others are shown to
 /// be means of it.
@@ -135,8 +136,9 @@ fn steps(image: View, channel: usize, axis: Axis) -> (Vec<f64>, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::format::Shape;
+    use crate::image::Image;
     use crate::texture::encode;
-    use crate::{Image, Shape};
 
     /// Waves of several slopes, from a hundredth of a step of a byte to a whole one a texel, and noise, stored.
     fn stored(format: Format, slope: f32, noise: f32) -> Texture {

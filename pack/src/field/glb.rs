@@ -17,6 +17,7 @@ mod accessor;
 mod container;
 mod document;
 mod read;
+mod rotation;
 #[cfg(test)]
 #[cfg(feature = "write")]
 mod tests;
@@ -27,35 +28,18 @@ pub(crate) use read::decode;
 #[cfg(feature = "write")]
 pub(crate) use write::encode;
 
-use super::{ROTATION_STEPS, rotation_step};
+use super::Field;
+use crate::error::PackError;
 
-/// The extension by which sprites and boxes are instances.
-const INSTANCING: &str = "EXT_mesh_gpu_instancing";
-
-/// Names of the nodes.
-const SPRITES: &str = "sprites";
-const BOXES: &str = "boxes";
-
-/// A rotation as a unit quaternion (x, y, z, w) in steps of a signed 16-bit unorm.
-///
-/// A facing sprite is turned about +Z. A flat one is first laid down, so that it faces +Y and its height points to
-/// -Z, and then turned about +Y.
-fn quaternion(rotation_rad: f32, flat: bool) -> [i16; 4] {
-    let half =
-        f64::from(rotation_step(rotation_rad)) * std::f64::consts::PI / f64::from(ROTATION_STEPS);
-    let (sin, cos) = (libm::sin(half), libm::cos(half));
-    let lay = std::f64::consts::FRAC_1_SQRT_2;
-    let parts = if flat {
-        [-lay * cos, lay * sin, lay * sin, lay * cos]
-    } else {
-        [0.0, 0.0, sin, cos]
-    };
-    parts.map(|part| libm::round(part * f64::from(i16::MAX)) as i16)
-}
-
-/// The inverse of [`quaternion`]; nothing if it is not one of those.
-fn rotation(quaternion_steps: [i16; 4], flat: bool) -> Option<f32> {
-    let [_, y, z, w] = quaternion_steps.map(f32::from);
-    let rotation = super::rounded_rotation(2.0 * libm::atan2f(if flat { y } else { z }, w));
-    (quaternion(rotation, flat) == quaternion_steps).then_some(rotation)
+impl Field {
+    /// Reads a field from the bytes of a `field.glb`, and verifies it as [`Field::verify`] does. `file` names it in errors.
+    ///
+    /// # Errors
+    /// [`PackError`] if it is not a file as docs/pack-format.md describes it. Counts are compared with
+    /// [`crate::limits`] and with the length of the file before anything is allocated for them.
+    pub fn from_glb(file: &str, bytes: &[u8]) -> Result<Field, PackError> {
+        let field = decode(file, bytes)?;
+        field.verify(file)?;
+        Ok(field)
+    }
 }

@@ -3,8 +3,9 @@
 use std::ops::RangeInclusive;
 
 use super::{Cloud, CloudBox, Field, Sprite, bounds};
+use crate::error::PackError;
 use crate::limits::{MAX_BOXES, MAX_CLOUDS, MAX_GROUPS, MAX_HOURS, MAX_SECTIONS, MAX_SPRITES};
-use crate::{PackError, SheetCell};
+use crate::mapping::SheetCell;
 
 /// Where clouds may be, in metres: some times the largest field.
 const PLACES_M: RangeInclusive<f32> = -1e5..=1e5;

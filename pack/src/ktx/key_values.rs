@@ -1,7 +1,7 @@
 //! The key/value data: well-formed, in order, and of the keys that the specification reserves only those that say what
 //! this crate holds anyway.
 
-use crate::PackError;
+use crate::error::PackError;
 
 /// Which way rows and columns go.
 pub(super) const ORIENTATION_KEY: &str = "KTXorientation";

@@ -6,7 +6,8 @@
 
 use ktx2::{Header, LevelIndex};
 
-use crate::{PackError, Texture};
+use crate::error::PackError;
+use crate::texture::Texture;
 
 /// The parts of a file that are read after its header and its descriptor.
 pub(super) struct Sections<'a> {

@@ -3,9 +3,9 @@
 use ktx2::{Header, LevelIndex};
 
 use super::{blamed_in, sample, texture};
+use crate::format::{Format, Shape};
 use crate::ktx::{decode, encode};
 use crate::role::Mips;
-use crate::{Format, Shape};
 
 /// A file in parts, to be changed and put together.
 struct Parts {

@@ -3,8 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::error::PackError;
+use crate::field::Field;
 use crate::limits::{MAX_BOXES, MAX_CLOUDS, MAX_SECTIONS, MAX_SPRITES};
-use crate::{Field, PackError};
+use crate::read::verify_bytes;
 
 /// The field of clouds of a pack.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -71,7 +73,7 @@ impl FieldEntry {
 
     /// Compares a file's bytes with this entry.
     pub(crate) fn verify_file(&self, file: &str, bytes: &[u8]) -> Result<(), PackError> {
-        super::verify_bytes(file, bytes, self.file_bytes, &self.file_blake3)
+        verify_bytes(file, bytes, self.file_bytes, &self.file_blake3)
     }
 
     /// Compares what was read with this entry.

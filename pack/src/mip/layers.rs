@@ -1,7 +1,8 @@
 //! Levels of the role `layers`: normals stay unit vectors.
 
-use super::{fold, mean};
-use crate::{Image, LayerTexel};
+use super::fold::{fold, mean};
+use crate::image::Image;
+use crate::texel::LayerTexel;
 
 /// Averages normals as vectors in space and makes them unit vectors again; averages density and rank.
 pub(super) fn halve(image: &Image) -> Image {

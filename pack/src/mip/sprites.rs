@@ -1,7 +1,8 @@
 //! Levels of the role `sprites`: cells stay apart.
 
-use super::fold;
-use crate::{Image, SheetCell};
+use super::fold::fold;
+use crate::image::Image;
+use crate::mapping::SheetCell;
 
 const GREY: usize = 0;
 const ALPHA: usize = 1;

@@ -5,7 +5,7 @@
 //! divides its sums by one number, its unit, where the largest would not fit a byte. A star that stands alone
 //! is then the record that it was on level 0, for as long as the unit is 1.
 
-use crate::Image;
+use crate::image::Image;
 use crate::texture::unorm8;
 
 /// The stars under a texel.

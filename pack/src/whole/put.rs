@@ -3,9 +3,21 @@
 use std::path::Path;
 use std::{fs, io};
 
-use super::temporary::Temporary;
-use super::{Folder, IsOurs, is_litter};
+use super::temporary::{TEMPORARY, Temporary};
 use crate::error::WriteError;
+
+/// Names of the files of a folder that may be replaced.
+pub type IsOurs = fn(&str) -> bool;
+
+/// Whether a file of this name is one that systems put into folders by themselves, or one in the making: such never stand in the way.
+pub fn is_litter(name: &str) -> bool {
+    // Finder; Windows Explorer, whose disks do not tell case; AppleDouble, and files that NFS keeps until they are closed.
+    let named = [".DS_Store", "Thumbs.db", "desktop.ini"];
+    named.iter().any(|litter| name.eq_ignore_ascii_case(litter))
+        || ["._", ".nfs", TEMPORARY]
+            .iter()
+            .any(|start| name.starts_with(start))
+}
 
 /// What is at the place of a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,14 +81,12 @@ pub(super) fn listed(names: &[String]) -> String {
 }
 
 /// Puts a folder that is complete in its place.
-pub(super) fn put(folder: &Folder) -> Result<(), WriteError> {
-    let Folder {
-        shown,
-        place,
-        temporary,
-        ours,
-        ..
-    } = folder;
+pub(super) fn put(
+    temporary: &Temporary,
+    place: &Path,
+    shown: &Path,
+    ours: Option<IsOurs>,
+) -> Result<(), WriteError> {
     let new = temporary.new_path();
     let failed = |reason| WriteError::failed(shown, reason);
     let taken = |error: io::Error| match error.kind() {
@@ -89,11 +99,11 @@ pub(super) fn put(folder: &Folder) -> Result<(), WriteError> {
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
         done => return done.map_err(failed),
     }
-    match look(place, shown, *ours)? {
+    match look(place, shown, ours)? {
         // It was there a moment ago.
         There::Nothing => move_to_free(new, place).map_err(taken),
         There::Empty => move_to_empty(new, place).map_err(taken),
-        There::Ours => replace(place, temporary, &|old| look(old, shown, *ours).map(|_| ()))
+        There::Ours => replace(place, temporary, &|old| look(old, shown, ours).map(|_| ()))
             .map_err(|kept| match kept {
                 Kept::Others(error) => error,
                 Kept::Failed(reason) => taken(reason),

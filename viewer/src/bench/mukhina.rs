@@ -13,9 +13,9 @@ use serde::Serialize;
 use welkin_pack::Pack;
 use welkin_viewer::gpu::{Gpu, GpuError};
 
+use super::measure::{WARM_UP_FRAMES, clock, measure};
 use super::report::{Row, clock_in_words, ms};
 use super::scene::{CAMERA_ELEVATION_DEG, SHADOW_EXTENT_M, scenes_of_mukhina};
-use super::{WARM_UP_FRAMES, clock, measure};
 
 /// The sizes, and the paper's mean of each in milliseconds on a GeForce GTX 770 (section 5, figure 4): its best device.
 const SIZES: [([u32; 2], f64); 3] = [

@@ -15,6 +15,7 @@ use welkin_viewer::headless::{Stage, View};
 use welkin_viewer::save::{Format, encode};
 
 use crate::cli::Shot;
+use crate::told::tell_leftovers;
 
 /// A sky, and what it becomes.
 pub enum Artist<'a> {
@@ -99,7 +100,7 @@ pub fn draw(mut artist: Artist<'_>, view: &View, output: &Path) -> Result<()> {
             for (name, bytes) in &files {
                 folder.add(name, bytes)?;
             }
-            super::tell(&folder.publish()?);
+            tell_leftovers(&folder.publish()?);
         }
     }
     Ok(())

@@ -5,12 +5,13 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
+use welkin_pack::interrupt;
 use welkin_pack::whole::{sweep, write_file};
 use welkin_viewer::export::sequence::{Sequence, open_folder, path};
 use welkin_viewer::headless::View;
 
 use super::artist::{Artist, Encoded};
-use crate::interrupt;
+use crate::told::tell_leftovers;
 
 /// Draws the frames of a part, and replaces those that are there. Every frame appears whole or not at all, so what was drawn before an
 /// interruption can stay.
@@ -21,7 +22,7 @@ pub fn draw(
     (folder, extension): (&Path, &str),
 ) -> Result<()> {
     open_folder(folder)?;
-    super::tell(&sweep(folder));
+    tell_leftovers(&sweep(folder));
     interrupt::listen()?;
     let numbers = sequence.numbers();
     let bar = progress(numbers.len() as u64);

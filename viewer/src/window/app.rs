@@ -14,11 +14,12 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::keyboard::ModifiersState;
 use winit::window::{Window, WindowId};
 
-use super::bake::{Baked, Baker, Job, Text};
+use super::bake::{Baker, Job, Text};
 use super::dropped::{Dropped, sort};
 use super::graphics::Graphics;
 use super::state::{State, read_settings};
-use super::{Wake, keyboard, panel, watch};
+use super::wake::{Baked, Wake};
+use super::{keyboard, panel, watch};
 use crate::cli::WindowArgs;
 use crate::told::told;
 

@@ -10,8 +10,8 @@ use welkin_baker::Recipe;
 use welkin_pack::{Overwrite, Pack};
 use winit::event_loop::EventLoopProxy;
 
-use super::Wake;
 use super::recipe::with_photo;
+use super::wake::{Baked, Wake};
 use crate::told::told;
 
 /// What to bake.
@@ -32,16 +32,6 @@ pub enum Text {
     File(PathBuf),
     /// This one, which names no files.
     Here(String),
-}
-
-/// What was made.
-#[derive(Debug)]
-pub struct Baked {
-    pub pack: Pack,
-    /// The folder that it was written to.
-    pub saved_to: Option<PathBuf>,
-    /// What the bake tells, and what `welkin check` warns of.
-    pub warnings: Vec<String>,
 }
 
 /// Bakes in the background.

@@ -14,8 +14,8 @@ use wgpu::CurrentSurfaceTexture::{Lost, Occluded, Outdated, Suboptimal, Success,
 use winit::event_loop::{EventLoopProxy, OwnedDisplayHandle};
 use winit::window::Window;
 
-use super::Wake;
 use super::state::Times;
+use super::wake::Wake;
 
 pub struct Graphics {
     pub gpu: Gpu,

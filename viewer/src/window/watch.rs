@@ -10,7 +10,7 @@ use std::time::{Duration, SystemTime};
 use toml::Value;
 use winit::event_loop::EventLoopProxy;
 
-use super::Wake;
+use super::wake::Wake;
 
 const PAUSE: Duration = Duration::from_millis(200);
 

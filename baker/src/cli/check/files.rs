@@ -8,7 +8,8 @@ use anyhow::{Result, bail};
 
 use welkin_pack::place;
 
-use crate::cli::{CheckArgs, input};
+use super::args::CheckArgs;
+use crate::cli::input;
 
 /// The key of a recipe that `--photo` stands for.
 const PHOTO_KEY: &str = "clouds.photo.file";

@@ -2,7 +2,7 @@
 
 use welkin_pack::field::Category;
 
-use super::{Look, between, whole};
+use super::look::{Look, whole};
 use crate::settings::BoxSettings;
 use crate::stream::Stream;
 
@@ -21,13 +21,13 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
     let mut boxes = Vec::new();
     for row in 0..rows {
         let across = row as f32 - 0.5 * (rows - 1) as f32;
-        let half = between(stream, 380.0, 560.0);
-        let shift = between(stream, -200.0, 200.0);
+        let half = stream.between([380.0, 560.0]);
+        let shift = stream.between([-200.0, 200.0]);
         for (side, group) in [(-1.0, 0), (1.0, 1)] {
             let centre = [
                 shift + side * half,
-                0.5 * (base_m + top_m) + between(stream, -0.3, 0.3) * thick,
-                ROW_M * (across + between(stream, -0.12, 0.12)),
+                0.5 * (base_m + top_m) + stream.between([-0.3, 0.3]) * thick,
+                ROW_M * (across + stream.between([-0.12, 0.12])),
             ];
             let size = [1.7 * half, thick, 0.2 * ROW_M];
             let mut of_row = look.in_box(centre, size, 2 * (row / 2) + group);

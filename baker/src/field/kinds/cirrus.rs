@@ -6,7 +6,7 @@ use std::f32::consts::PI;
 
 use welkin_pack::field::Category;
 
-use super::{Look, between, whole};
+use super::look::{Look, whole};
 use crate::settings::BoxSettings;
 use crate::stream::Stream;
 
@@ -24,14 +24,14 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
     (0..bundles)
         .map(|bundle| {
             let centre = [
-                between(stream, -600.0, 600.0),
+                stream.between([-600.0, 600.0]),
                 0.5 * (base_m + top_m),
-                between(stream, -150.0, 150.0) + 420.0 * (bundle as f32 - 2.5),
+                stream.between([-150.0, 150.0]) + 420.0 * (bundle as f32 - 2.5),
             ];
             let size = [
-                between(stream, 1500.0, 2600.0),
+                stream.between([1500.0, 2600.0]),
                 (0.6 * (top_m - base_m)).max(20.0),
-                between(stream, 350.0, 500.0),
+                stream.between([350.0, 500.0]),
             ];
             let mut bundle = look.in_box(centre, size, bundle);
             bundle.sprites = 2;

@@ -3,32 +3,32 @@
 use std::f32::consts::TAU;
 
 use super::heap::{Heap, foot};
-use super::{Look, between, whole};
+use super::look::{Look, whole};
 use crate::settings::BoxSettings;
 use crate::stream::Stream;
 
 pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSettings> {
-    let width = between(stream, 3600.0, 4600.0);
-    let depth = width * between(stream, 0.75, 0.95);
-    let height = (top_m - base_m) * between(stream, 0.9, 1.0);
+    let width = stream.between([3600.0, 4600.0]);
+    let depth = width * stream.between([0.75, 0.95]);
+    let height = (top_m - base_m) * stream.between([0.9, 1.0]);
     let look = Look::puffs(1250.0);
     let mut boxes = Vec::new();
     foot(base_m, [width, 0.12 * height, depth], look, 1.5, &mut boxes);
     let towers = whole(stream, 3, 4);
-    let first = between(stream, 0.0, 1.0);
+    let first = stream.between([0.0, 1.0]);
     let mut group = 1;
     for i in 0..towers {
         let out = if i == 0 {
             0.04
         } else {
-            between(stream, 0.2, 0.28)
+            stream.between([0.2, 0.28])
         };
-        let angle = TAU * (first + i as f32 / (towers - 1) as f32 + between(stream, -0.08, 0.08));
+        let angle = TAU * (first + i as f32 / (towers - 1) as f32 + stream.between([-0.08, 0.08]));
         // The middle one reaches into the anvil.
         let share = if i == 0 {
             0.97
         } else {
-            between(stream, 0.3, 0.6)
+            stream.between([0.3, 0.6])
         };
         let tower = Heap {
             at_m: [
@@ -41,7 +41,7 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
                 * if i == 0 {
                     0.68
                 } else {
-                    between(stream, 0.46, 0.56)
+                    stream.between([0.46, 0.56])
                 },
             storeys: (libm::roundf(share * height / 1100.0) as u32).clamp(1, 9),
             group,
@@ -69,7 +69,7 @@ fn anvil(
     };
     let ring = 8;
     for i in 0..ring {
-        let angle = TAU * (i as f32 + between(stream, -0.2, 0.2)) / ring as f32;
+        let angle = TAU * (i as f32 + stream.between([-0.2, 0.2])) / ring as f32;
         let (sin, cos) = (libm::sinf(angle), libm::cosf(angle));
         for (j, out) in [0.42, 0.8].into_iter().enumerate() {
             let reach = width * out * (1.0 + 0.45 * cos);

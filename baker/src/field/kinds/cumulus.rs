@@ -3,32 +3,32 @@
 use std::f32::consts::TAU;
 
 use super::heap::{Heap, foot};
-use super::{Look, between, whole};
+use super::look::{Look, whole};
 use crate::settings::BoxSettings;
 use crate::stream::Stream;
 
 pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSettings> {
-    let width = between(stream, 700.0, 1500.0);
-    let depth = width * between(stream, 0.65, 0.95);
-    let height = (width * between(stream, 0.45, 0.7)).min(top_m - base_m);
+    let width = stream.between([700.0, 1500.0]);
+    let depth = width * stream.between([0.65, 0.95]);
+    let height = (width * stream.between([0.45, 0.7])).min(top_m - base_m);
     let look = Look::puffs((0.27 * width).clamp(200.0, 380.0));
     let mut boxes = Vec::new();
     foot(base_m, [width, 0.34 * height, depth], look, 1.1, &mut boxes);
     let heaps = whole(stream, 3, 5);
-    let first = between(stream, 0.0, 1.0);
+    let first = stream.between([0.0, 1.0]);
     let mut group = 1;
     for i in 0..heaps {
         // The first in the middle, the others around it.
         let out = if i == 0 {
             0.08
         } else {
-            between(stream, 0.2, 0.28)
+            stream.between([0.2, 0.28])
         };
-        let angle = TAU * (first + i as f32 / (heaps - 1) as f32 + between(stream, -0.08, 0.08));
+        let angle = TAU * (first + i as f32 / (heaps - 1) as f32 + stream.between([-0.08, 0.08]));
         let share = if i == 0 {
             1.0
         } else {
-            between(stream, 0.55, 0.85)
+            stream.between([0.55, 0.85])
         };
         let heap = Heap {
             at_m: [
@@ -37,7 +37,7 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
             ],
             foot_m: base_m + 0.2 * height,
             top_m: base_m + share * height,
-            width_m: width * between(stream, 0.4, 0.52),
+            width_m: width * stream.between([0.4, 0.52]),
             storeys: if i == 0 { 2 } else { 1 },
             group,
         };

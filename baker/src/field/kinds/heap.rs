@@ -1,6 +1,6 @@
 //! A heap: storeys of boxes on each other, narrower towards a rounded top.
 
-use super::{Look, between};
+use super::look::Look;
 use crate::settings::BoxSettings;
 use crate::stream::Stream;
 
@@ -34,9 +34,9 @@ impl Heap {
             let middle = (i as f32 + 0.5) / self.storeys as f32;
             // The outline of an ellipse that stands on its wide part, with bulges.
             let round = libm::sqrtf(1.0 - 0.7 * middle * middle);
-            let width = self.width_m * round * between(stream, 0.88, 1.12);
+            let width = self.width_m * round * stream.between([0.88, 1.12]);
             let side = (width - inset).max(0.5 * width);
-            let depth = side * between(stream, 0.85, 1.15);
+            let depth = side * stream.between([0.85, 1.15]);
             let y = self.foot_m + storey * (i as f32 + 0.5);
             let group = self.group + i;
             // Storeys overlap a little, so that no seam is seen between them; the last ends at the top.
@@ -48,8 +48,8 @@ impl Heap {
             let centre = [x, y + 0.5 * overlap, z];
             let size = [side, storey + overlap, depth];
             boxes.push(look.in_box(centre, size, group).filled(fill));
-            x += between(stream, -0.06, 0.06) * width;
-            z += between(stream, -0.06, 0.06) * width;
+            x += stream.between([-0.06, 0.06]) * width;
+            z += stream.between([-0.06, 0.06]) * width;
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use welkin_pack::field::Category;
 
-use super::{Look, between};
+use super::look::Look;
 use crate::settings::BoxSettings;
 use crate::stream::Stream;
 
@@ -33,7 +33,7 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
     for roll in 0..ROLLS {
         // The outer rolls are shorter, so that a patch is round.
         let lumps = LUMPS - u32::from(roll != ROLLS / 2);
-        let bend = between(stream, -0.2, 0.2);
+        let bend = stream.between([-0.2, 0.2]);
         let across = roll as f32 - 0.5 * (ROLLS - 1) as f32 + bend;
         let first = roll * LUMPS.div_ceil(2);
         let band = [0.8 * LUMP_M * lumps as f32, 0.6 * thick, 0.5 * ROLL_M];
@@ -44,9 +44,9 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
         for lump in 0..lumps {
             let along = lump as f32 - 0.5 * (lumps - 1) as f32;
             let centre = [
-                LUMP_M * (along + between(stream, -0.15, 0.15)),
-                0.5 * (base_m + top_m) + between(stream, -0.25, 0.25) * thick,
-                ROLL_M * (across + between(stream, -0.12, 0.12)),
+                LUMP_M * (along + stream.between([-0.15, 0.15])),
+                0.5 * (base_m + top_m) + stream.between([-0.25, 0.25]) * thick,
+                ROLL_M * (across + stream.between([-0.12, 0.12])),
             ];
             let size = [0.7 * LUMP_M, thick, 0.45 * ROLL_M];
             let mut of_roll = look.in_box(centre, size, first + lump / 2);

@@ -2,7 +2,7 @@
 
 use welkin_pack::field::Category;
 
-use super::{Look, between};
+use super::look::Look;
 use crate::settings::BoxSettings;
 use crate::stream::Stream;
 
@@ -18,17 +18,17 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
         turn_rad: 0.35,
     };
     let [width, depth] = [
-        between(stream, 900.0, 1200.0),
-        between(stream, 800.0, 1000.0),
+        stream.between([900.0, 1200.0]),
+        stream.between([800.0, 1000.0]),
     ];
     let thick = (0.5 * (top_m - base_m)).max(20.0);
     let mut boxes = Vec::new();
     for i in 0..COLUMNS * ROWS {
         let place = |n: u32, of: u32| n as f32 - 0.5 * (of - 1) as f32;
         let centre = [
-            width * (place(i % COLUMNS, COLUMNS) + between(stream, -0.12, 0.12)),
-            0.5 * (base_m + top_m) + between(stream, -0.15, 0.15) * thick,
-            depth * (place(i / COLUMNS, ROWS) + between(stream, -0.12, 0.12)),
+            width * (place(i % COLUMNS, COLUMNS) + stream.between([-0.12, 0.12])),
+            0.5 * (base_m + top_m) + stream.between([-0.15, 0.15]) * thick,
+            depth * (place(i / COLUMNS, ROWS) + stream.between([-0.12, 0.12])),
         ];
         let mut of_sheet = look.in_box(centre, [1.1 * width, thick, 1.1 * depth], i);
         of_sheet.sprites = 5;

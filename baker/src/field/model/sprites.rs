@@ -6,8 +6,9 @@ use gltf::Node;
 use welkin_pack::field::Category;
 use welkin_pack::{SheetCell, SheetKind};
 
-use super::{Matrix, corners, extras, model_error, transformed};
-use crate::error::BakeError;
+use super::extras;
+use super::node::{Matrix, corners, transformed};
+use crate::error::{BakeError, model_error};
 use crate::field::boxes::{PLACES_M, SPRITE_SIZES_M, SPRITES, default_box};
 use crate::settings::{BoxSettings, PlacedSprite};
 

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use welkin_pack::field::{Cloud, Sprite};
 
-use crate::field::snapped;
+use crate::field::grid::snapped;
 
 /// A unit square that faces +Z, and the two triangles of it.
 const CORNERS: [[f32; 3]; 4] = [

@@ -9,7 +9,8 @@ use crate::error::RecipeError;
 use crate::field::boxes::{
     self, CULL, Fault, GROUPS, PLACES_M, ROTATIONS_DEG, SIZES_M, SPRITE_SIZES_M, SPRITES,
 };
-use crate::recipe::{BoxTable, Entry, Recipe};
+use crate::recipe::Recipe;
+use crate::recipe::tables::{BoxTable, Entry};
 use crate::settings::BoxSettings;
 
 impl Recipe {

@@ -7,7 +7,8 @@ use welkin_pack::field::{COLOUR_LEVELS, CloudKind, ColourLevel};
 
 use crate::error::RecipeError;
 use crate::field::light;
-use crate::recipe::{Entry, Recipe};
+use crate::recipe::Recipe;
+use crate::recipe::tables::Entry;
 
 impl Recipe {
     /// A value that must be there; `table` is where it is missed.

@@ -13,9 +13,10 @@
 //! - **Apart.** Of independent channels the gradients have any angle `a` to each other, so `cos^2 a` is 1/2 on the mean, weighted by
 //!   their lengths. Of a channel and any monotone function of it, rising or falling, it is 1.
 
+use crate::image::Image;
 use crate::manifest::FractalNoise;
+use crate::texture::Texture;
 use crate::view::View;
-use crate::{Image, Texture};
 
 use super::super::spectrum::Spectrum;
 
@@ -159,8 +160,8 @@ pub(super) fn likeness(a: &Image, b: &Image) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::format::{Format, Shape};
     use crate::test_pack::waves as field;
-    use crate::{Format, Shape};
 
     /// As a texture of half floats.
     fn texture(values: &[f32]) -> Texture {

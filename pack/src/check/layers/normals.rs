@@ -3,8 +3,7 @@
 //! A stored number stands for any number that rounds to it. So a normal is not compared with a value but with a
 //! range, and a rule blames only what no sound surface could have been rounded to.
 
-use super::{texels, under};
-use crate::view::View;
+use crate::view::{Texel, View};
 
 /// Half a step of a byte in a component, whose range is -1..1; a ten-thousandth more, since the numbers that were
 /// rounded had seven digits.
@@ -25,6 +24,17 @@ fn squares([low, high]: Range) -> Range {
         a.min(b)
     };
     [least, a.max(b)]
+}
+
+/// The four texels that a texel of the next level is made from.
+fn under(above: View, x: u32, y: u32) -> [Texel; 4] {
+    let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
+    corners.map(|(i, j)| above.texel(2 * x + i, 2 * y + j))
+}
+
+fn texels(image: View) -> impl Iterator<Item = (u32, u32)> + use<> {
+    let (width, height) = (image.width, image.height);
+    (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
 }
 
 /// The normals that a texel may stand for: along u, along v and upwards.

@@ -1,8 +1,7 @@
 //! Faults of the field of clouds.
 
 use super::*;
-use crate::Field;
-use crate::field::bounds;
+use crate::field::{Field, bounds};
 use crate::test_field::field;
 
 /// A pack whose field was changed, with true hashes.

@@ -1,9 +1,13 @@
 //! Textures that are well formed and not what they claim to be: each is refused by the rule that is meant for it.
 
 use super::{assert_errors, assert_only, change_level, check_pack, each_texel, errors};
+use crate::build::PackInfo;
+use crate::image::Image;
+use crate::pack::Pack;
+use crate::role::Role;
 use crate::test_field::field;
 use crate::test_pack::{half_float_pack, pack, waves, with, with_images, with_mean, with_texture};
-use crate::{Image, Pack, PackInfo, Role, Texture};
+use crate::texture::Texture;
 
 fn with_clouds(change: impl Fn(&mut [f32])) -> Pack {
     with(Role::Clouds, |image| each_texel(image, |_, _, t| change(t)))

@@ -1,8 +1,11 @@
 //! Faults of the layers of clouds.
 
 use super::{assert_only, change_level, check_pack, each_texel, errors};
+use crate::image::Image;
+use crate::layer_kind::LayerKind;
+use crate::pack::Pack;
+use crate::role::Role;
 use crate::test_pack::{Stream, layer, layers, waves, with_images, with_mean, with_texture};
-use crate::{Image, LayerKind, Pack, Role};
 
 fn with_layer(index: usize, change: impl FnOnce(&mut Image)) -> Pack {
     with_images(Role::Layers, |images| change(&mut images[index]))
@@ -37,7 +40,7 @@ fn normals_that_were_averaged_and_not_made_unit_vectors_are_an_error() {
         for level in 1..t.levels.len() {
             let bytes = t.level_bytes(level) / 3;
             for layer in 0..3 {
-                let mean = crate::mip::halve(&t.image(level - 1, layer));
+                let mean = crate::mip::fold::halve(&t.image(level - 1, layer));
                 for (i, texel) in mean.texels.chunks_exact(4).enumerate() {
                     let at = bytes * layer as usize + 4 * i;
                     for (to, from) in t.levels[level][at..at + 2].iter_mut().zip(texel) {

@@ -1,8 +1,11 @@
 //! Faults of the textures that the other methods draw from.
 
 use super::{assert_errors, assert_only, check_pack, each_texel, errors};
+use crate::image::Image;
+use crate::mapping::FlareCell;
+use crate::pack::Pack;
+use crate::role::Role;
 use crate::test_pack::{Stream, displaced, fbm, noise, with, with_images, with_texture};
-use crate::{FlareCell, Image, Pack, Role};
 
 #[test]
 fn a_value_that_is_more_often_than_others_is_an_error() {

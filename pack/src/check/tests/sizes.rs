@@ -3,7 +3,9 @@
 
 use crate::check::report::Report;
 use crate::check::{Claim, check_role};
-use crate::{Format, Role, Texture};
+use crate::format::Format;
+use crate::role::Role;
+use crate::texture::Texture;
 
 /// Powers of two from one side to another.
 fn sides([least, most]: [u32; 2]) -> impl Iterator<Item = u32> + Clone {

@@ -1,7 +1,7 @@
 //! Faults of the skybox.
 
 use super::{assert_only, check_pack, each_texel};
-use crate::Role;
+use crate::role::Role;
 use crate::test_pack::{with, with_texture};
 
 #[test]

@@ -1,8 +1,10 @@
 //! Faults of the sheet of cloud sprites.
 
 use super::{assert_only, change_level, check_pack, each_texel};
+use crate::mapping::{SheetCell, SheetKind};
+use crate::pack::Pack;
+use crate::role::Role;
 use crate::test_pack::{with, with_texture};
-use crate::{Pack, Role, SheetCell, SheetKind};
 
 /// Side of a cell of the test pack.
 const SIDE: u32 = 32;

@@ -1,8 +1,10 @@
 //! Faults of the star texture.
 
 use super::{assert_errors, assert_only, change_level, check_pack, errors};
+use crate::image::Image;
+use crate::pack::Pack;
+use crate::role::Role;
 use crate::test_pack::{Stream, stars, with, with_texture};
-use crate::{Image, Pack, Role};
 
 fn with_stars(change: impl FnOnce(&mut Image)) -> Pack {
     with(Role::Stars, change)

@@ -1,8 +1,11 @@
 //! One texture alone, before it is in any pack.
 
 use crate::check::{Finding, Outcome, RULES, Report, check_texture};
+use crate::format::{Format, Shape};
+use crate::pack::Pack;
+use crate::role::Role;
 use crate::test_pack::{half_float_pack, pack};
-use crate::{Format, Pack, Role, Shape, Texture};
+use crate::texture::Texture;
 
 fn textures(pack: &Pack) -> Vec<(Role, Texture)> {
     let entries = pack.manifest().textures.iter();

@@ -1,8 +1,7 @@
 //! Attributes of instances: accessors resolved to numbers, every offset looked at before it is used.
 
-use super::document::{Accessor, Document, FLOAT, SHORT, UNSIGNED_SHORT};
-use super::{INSTANCING, SPRITES};
-use crate::PackError;
+use super::document::{Accessor, Document, FLOAT, INSTANCING, SHORT, SPRITES, UNSIGNED_SHORT};
+use crate::error::PackError;
 use crate::limits::{MAX_BOXES, MAX_SPRITES};
 
 /// The instances of one node.

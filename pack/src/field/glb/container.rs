@@ -1,6 +1,6 @@
 //! The container of binary glTF: a header, a chunk of JSON, a chunk of bytes.
 
-use crate::PackError;
+use crate::error::PackError;
 
 const MAGIC: u32 = u32::from_le_bytes(*b"glTF");
 const VERSION: u32 = 2;

@@ -9,6 +9,13 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::field::COLOUR_LEVELS;
 
+/// The extension by which sprites and boxes are instances.
+pub(super) const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
+/// Names of the nodes.
+pub(super) const SPRITES: &str = "sprites";
+pub(super) const BOXES: &str = "boxes";
+
 /// Component types of accessors.
 pub(super) const SHORT: u32 = 5122;
 pub(super) const UNSIGNED_SHORT: u32 = 5123;

@@ -1,9 +1,10 @@
 //! Reads the file: instances and extras become a field again.
 
 use super::accessor::Instances;
-use super::document::{CloudExtras, Document, FieldExtras, HourExtras};
-use super::{BOXES, INSTANCING, SPRITES, container, rotation};
-use crate::PackError;
+use super::container;
+use super::document::{BOXES, CloudExtras, Document, FieldExtras, HourExtras, INSTANCING, SPRITES};
+use super::rotation::rotation;
+use crate::error::PackError;
 use crate::field::{
     Category, Cloud, CloudBox, CloudKind, ColourLevel, Field, Hour, Sprite, bounds,
 };

@@ -3,9 +3,10 @@
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
+use super::document::INSTANCING;
+use super::rotation::{quaternion, rotation};
 use super::*;
-use crate::Field;
-use crate::field::rounded_rotation;
+use crate::field::{Field, ROTATION_STEPS, rounded_rotation};
 use crate::test_field::field;
 
 const FILE: &str = "field.glb";

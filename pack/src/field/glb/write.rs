@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::container;
 use super::document::{
-    Accessor, Asset, Buffer, BufferView, CloudExtras, Document, Extensions, Extras, FLOAT,
-    FieldExtras, HourExtras, Instancing, Material, Mesh, Node, Primitive, SHORT, Scene, Surface,
-    UNSIGNED_SHORT,
+    Accessor, Asset, BOXES, Buffer, BufferView, CloudExtras, Document, Extensions, Extras, FLOAT,
+    FieldExtras, HourExtras, INSTANCING, Instancing, Material, Mesh, Node, Primitive, SHORT,
+    SPRITES, Scene, Surface, UNSIGNED_SHORT,
 };
-use super::{BOXES, INSTANCING, SPRITES, container, quaternion};
-use crate::PackError;
+use super::rotation::quaternion;
+use crate::error::PackError;
 use crate::field::{Category, Field};
 
 /// Targets of buffer views.

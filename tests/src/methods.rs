@@ -1,0 +1,30 @@
+//! The choice between the methods' layers.
+
+use glam::Vec3;
+use welkin_runtime::Method;
+use welkin_runtime::frame::Uniforms;
+
+use crate::clouds::Inputs;
+use crate::{fbm, lit, octaves, packed};
+
+/// How many channels of clouds or of a map a method reads in a place.
+pub fn reads(method: Method, uniforms: &Uniforms) -> usize {
+    match method {
+        Method::Packed | Method::Sprites => 4,
+        Method::Octaves => 5,
+        Method::Fbm => 3,
+        Method::Lit => lit::reads(&uniforms.lit),
+    }
+}
+
+/// Radiance and opacity of a method's clouds along a unit direction above the horizon. `narrowing` is the cosine
+/// of its angle to the axis of the lens.
+pub fn layer(method: Method, inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
+    match method {
+        Method::Packed => packed::layer(inputs, direction, narrowing),
+        Method::Sprites => packed::upper_layer(inputs, direction, narrowing),
+        Method::Octaves => octaves::layer(inputs, direction, narrowing),
+        Method::Fbm => fbm::layer(inputs, direction, narrowing),
+        Method::Lit => lit::layer(inputs, direction, narrowing),
+    }
+}
