@@ -1,7 +1,5 @@
 //! A frame's uniforms: all that is computed once a frame, from pack, parameters, camera and seconds.
 
-use bytemuck::{Pod, Zeroable};
-
 use crate::clear_sky::flares::{self, FlareUniforms};
 use crate::clear_sky::galaxy::{self, GalaxyUniforms};
 use crate::clear_sky::gradient::{self, SkyUniforms};
@@ -18,8 +16,9 @@ use crate::clouds::shadow::{self, ShadowUniforms};
 use crate::clouds::shared::{self, CloudUniforms, CloudView};
 use crate::device::pipeline::Variant;
 use crate::geometry::camera::{self, Camera, CameraUniforms};
-use crate::geometry::math::{finite, vec4};
+use crate::geometry::math::finite;
 use crate::geometry::part::Part;
+use crate::geometry::uniforms::uniforms;
 use crate::pack_data::PackData;
 use crate::params::{Method, SkyParams};
 use crate::sprites::{self, SpriteUniforms};
@@ -31,51 +30,52 @@ use crate::weather::rays::{self, RayUniforms};
 /// The uniforms and what else the passes share.
 pub const PART: Part = Part {
     constants: &[],
+    structs: &[Uniforms::WGSL],
     wgsl: include_str!("frame.wgsl"),
 };
 
-/// The whole buffer, a struct a pass.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct Uniforms {
-    /// Where pixels look.
-    pub camera: CameraUniforms,
-    /// Clear sky.
-    pub sky: SkyUniforms,
-    /// Clear sky of Perez and others.
-    pub perez: PerezUniforms,
-    /// The sun's square.
-    pub sun: SunUniforms,
-    /// Stars.
-    pub stars: StarUniforms,
-    /// Galaxy.
-    pub galaxy: GalaxyUniforms,
-    /// The skybox.
-    pub skybox: SkyboxUniforms,
-    /// What the clouds of every method share.
-    pub clouds: CloudUniforms,
-    /// Clouds of the packed method.
-    pub packed: PackedUniforms,
-    /// Clouds of the octaves method.
-    pub octaves: OctaveUniforms,
-    /// Clouds of the fbm method.
-    pub fbm: FbmUniforms,
-    /// Clouds of the lit method.
-    pub lit: LitUniforms,
-    /// Clouds of the sprites method.
-    pub sprites: SpriteUniforms,
-    /// Shadows of the lit method's clouds.
-    pub shadow: ShadowUniforms,
-    /// A flash of lightning.
-    pub lightning: LightningUniforms,
-    /// Crepuscular rays.
-    pub rays: RayUniforms,
-    /// Rain.
-    pub rain: RainUniforms,
-    /// The lens flare.
-    pub flares: FlareUniforms,
-    /// The last step.
-    pub tonemap: TonemapUniforms,
+uniforms! {
+    /// Everything that is constant over a frame, a struct a pass.
+    Uniforms {
+        /// Where pixels look.
+        camera: CameraUniforms,
+        /// Clear sky.
+        sky: SkyUniforms,
+        /// Clear sky of Perez and others.
+        perez: PerezUniforms,
+        /// The sun's square.
+        sun: SunUniforms,
+        /// Stars.
+        stars: StarUniforms,
+        /// Galaxy.
+        galaxy: GalaxyUniforms,
+        /// The skybox.
+        skybox: SkyboxUniforms,
+        /// What the clouds of every method share.
+        clouds: CloudUniforms,
+        /// Clouds of the packed method.
+        packed: PackedUniforms,
+        /// Clouds of the octaves method.
+        octaves: OctaveUniforms,
+        /// Clouds of the fbm method.
+        fbm: FbmUniforms,
+        /// Clouds of the lit method.
+        lit: LitUniforms,
+        /// Clouds of the sprites method.
+        sprites: SpriteUniforms,
+        /// Shadows of the lit method's clouds.
+        shadow: ShadowUniforms,
+        /// A flash of lightning.
+        lightning: LightningUniforms,
+        /// Crepuscular rays.
+        rays: RayUniforms,
+        /// Rain.
+        rain: RainUniforms,
+        /// The lens flare.
+        flares: FlareUniforms,
+        /// The last step.
+        tonemap: TonemapUniforms,
+    }
 }
 
 impl PackData {
@@ -104,9 +104,8 @@ impl PackData {
             place_m: stands,
         };
         let clouds = shared::uniforms(&params, &light, self.clouds_texels);
-        let [east, south, ..] = clouds.gradient;
         let packed = packed::uniforms(&params, &view);
-        let octaves = octaves::uniforms(&params, &view, [east, south]);
+        let octaves = octaves::uniforms(&params, &view, clouds.sun_azimuth);
         let fbm = fbm::uniforms(&params, &view, &self.fbm, light.sun_direction);
         let lit = lit::uniforms(&params, &view, &light, &clouds);
         let flash = lightning::uniforms(&params, &view, &clouds, &lit);
@@ -126,14 +125,13 @@ impl PackData {
             Method::Sprites => sprites::closing(&whole, stands.y as f32, self.cloud_heights_m),
             _ => shared::closing(whole.cover),
         };
-        let overcast = vec4(overcast, closing);
         let [_, noise, detail] = self.cloud_means;
         let camera = camera::uniforms(camera);
         // Without a skybox the shader does not read one.
         let (face, levels) = self.skybox.unwrap_or((1, 1));
         Uniforms {
             camera,
-            sky: gradient::uniforms(&light, &self.sky, params.time, night, overcast),
+            sky: gradient::uniforms(&light, &self.sky, params.time, night, overcast, closing),
             perez: perez::uniforms(&params.perez, params.sky, &light),
             sun: sun::uniforms(&shown, &rays, self.sun.0, self.sun.1, pixel, params.sun),
             stars: stars::uniforms(
@@ -166,9 +164,9 @@ impl Variant {
     /// The least that draws a frame.
     pub fn of(uniforms: &Uniforms) -> Variant {
         Variant {
-            night: uniforms.sky.gradient[3] > 0.0,
-            upper_layer: uniforms.packed.shape[3] > 0.0,
-            weather: uniforms.rain.haze[3] > 0.0 || uniforms.lightning.light[1] > 0.0,
+            night: uniforms.sky.night > 0.0,
+            upper_layer: uniforms.packed.upper_layer > 0.0,
+            weather: uniforms.rain.haze_opacity > 0.0 || uniforms.lightning.light.y > 0.0,
         }
     }
 }

@@ -5,7 +5,6 @@
 //! and its map, is made when that method is first prepared or [`Sky::load`]ed, and kept. Draw after the opaque scene:
 //! pixels that the scene covers then cost nothing.
 
-use glam::Vec3;
 use welkin_pack::{Field, Pack, Role};
 use wgpu::util::DeviceExt;
 
@@ -259,9 +258,9 @@ impl Sky {
         let sprites = shown.is_some();
         if let Some(pass) = shown {
             pass.record(&self.common, queue, encoder, &self.shared, &frame);
-            if uniforms.flares.light[0] > 0.0 {
-                let sun = Vec3::from_slice(&uniforms.sky.sun);
-                uniforms.flares.light[0] *= pass.clear_towards_sun(&frame, sun);
+            if uniforms.flares.strength > 0.0 {
+                let sun = uniforms.sky.sun_direction;
+                uniforms.flares.strength *= pass.clear_towards_sun(&frame, sun);
             }
         }
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&uniforms));
@@ -279,17 +278,14 @@ impl Sky {
         match &mut program.map {
             OwnMap::None => {}
             OwnMap::Octaves(pass) => pass.record(queue, encoder, &self.shared, &states),
-            OwnMap::Fbm(pass) => {
-                let [x, y, ..] = uniforms.fbm.step;
-                pass.record(encoder, &self.shared, [x, y]);
-            }
-            OwnMap::Lit(pass) => pass.record(encoder, &self.shared, uniforms.lit.dome[2] as usize),
+            OwnMap::Fbm(pass) => pass.record(encoder, &self.shared, uniforms.fbm.sun_step),
+            OwnMap::Lit(pass) => pass.record(encoder, &self.shared, uniforms.lit.count as usize),
         }
         let shadow = shadow::Area::of(&params, camera.position_m().as_dvec3());
         if shadow.is_some() {
             program.record_shadow(&self.common, encoder, &self.shared);
         }
-        let rays = uniforms.rays.sun[3] > 0.0;
+        let rays = uniforms.rays.opacity > 0.0;
         let rain = rain::vertices(&uniforms.rain);
         if rays {
             program.record_rays(&self.common, encoder, &self.shared);
@@ -308,7 +304,7 @@ impl Sky {
             variant,
             rays,
             rain,
-            flare: uniforms.flares.light[0] > 0.0,
+            flare: uniforms.flares.strength > 0.0,
             shadow,
             sprites,
         });

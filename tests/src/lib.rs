@@ -37,8 +37,3 @@ pub mod stars;
 pub mod sun;
 pub mod texture;
 pub mod tonemap;
-
-/// The first three of four numbers.
-pub fn xyz(four: [f32; 4]) -> glam::Vec3 {
-    glam::Vec3::new(four[0], four[1], four[2])
-}

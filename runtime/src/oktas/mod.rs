@@ -147,7 +147,7 @@ impl Oktas {
 
 /// The share of the counted sky that lies in the haze of the horizon, and what the haze leaves of opacity in its middle.
 fn haze(uniforms: &Uniforms) -> [f32; 2] {
-    let out = uniforms.clouds.sunlight[3].recip();
+    let out = uniforms.clouds.haze_scale.recip();
     let hazy = ((out - LEAST_SINE) / (1.0 - LEAST_SINE)).max(0.0);
     [hazy, smoothstep(0.0, out, 0.5 * (out + LEAST_SINE))]
 }
@@ -155,48 +155,47 @@ fn haze(uniforms: &Uniforms) -> [f32; 2] {
 impl Oktas {
     /// The share of places with more than this opacity, by the packed method.
     fn packed_share(&self, packed: &PackedUniforms, opacity: f32) -> f32 {
-        let [cut, stretch, density, upper] = packed.shape;
-        let smooth = packed.levels[2];
+        let smooth = packed.smoothness;
         let lower = |opacity: f32| {
             if opacity < 0.0 {
                 return 1.0;
             }
-            let alpha = before_softening(opacity, packed::EDGE) / (stretch * (1.0 + 2.0 * density));
+            let alpha = before_softening(opacity, packed::EDGE)
+                / (packed.contrast * (1.0 + 2.0 * packed.density));
             self.detail.mean(|detail| {
                 self.amount
-                    .above(cut + alpha / (detail + (1.0 - detail) * smooth))
+                    .above(packed.threshold + alpha / (detail + (1.0 - detail) * smooth))
             })
         };
-        if upper == 0.0 {
+        if packed.upper_layer == 0.0 {
             return lower(opacity);
         }
         self.noise.mean(|wisp| {
             let veil = smoothstep(packed::UPPER_THRESHOLD, 1.0, wisp);
-            let clear = 1.0 - upper * packed::UPPER_OPACITY * veil;
+            let clear = 1.0 - packed.upper_layer * packed::UPPER_OPACITY * veil;
             lower(behind(opacity, clear))
         })
     }
 
     /// The same by the fbm method.
     fn fbm_share(&self, fbm: &FbmUniforms, opacity: f32) -> f32 {
-        let [m, n, ..] = fbm.remap;
         let cover = fbm::FULL * before_smoothstep(opacity);
         self.fbm.mean(|finer| {
-            let rough = 4.0 * fbm.shaded[3] * (finer - fbm.step[2]);
-            self.fbm.above((before_roughening(cover, rough) - n) / m)
+            let rough = 4.0 * fbm.roughness * (finer - fbm.mean);
+            self.fbm
+                .above((before_roughening(cover, rough) - fbm.intercept) / fbm.slope)
         })
     }
 }
 
 /// The same by the octaves method, where every amount is equally likely.
 fn octaves_share(octaves: &OctaveUniforms, opacity: f32) -> f32 {
-    let exponent = octaves.shape[0];
     let middle = clearness(&octaves.middle, |thickness| {
-        let full = 1.0 - (octaves::THIN * exponent * thickness).exp2();
+        let full = 1.0 - (octaves::THIN * octaves.exponent * thickness).exp2();
         1.0 - octaves::MIDDLE_OPACITY * softened(full, octaves::EDGE)
     });
     let high = clearness(&octaves.high, |thickness| {
-        1.0 - octaves::HIGH_OPACITY * smoothstep(0.0, 1.0, thickness * octaves.map[3])
+        1.0 - octaves::HIGH_OPACITY * smoothstep(0.0, 1.0, thickness * octaves.high_contrast)
     });
     // The low dome needs no more than the whole opacity, whatever is behind it.
     let steps: Vec<f32> = (0..=NODES)
@@ -220,14 +219,12 @@ fn octaves_share(octaves: &OctaveUniforms, opacity: f32) -> f32 {
 
 /// The share of the low dome with more than this opacity, averaged over the finer read.
 fn low_dome(octaves: &OctaveUniforms, opacity: f32) -> f32 {
-    let [exponent, .., finer_share] = octaves.shape;
-    let cut = octaves.low.place[3];
     let above = |finer: f32| {
-        let alpha = before_roughening(opacity, finer_share * finer);
+        let alpha = before_roughening(opacity, octaves.roughness * finer);
         let full = before_softening(alpha, octaves::EDGE).min(1.0);
         // At sharpness 0 there is no cloud however thick.
-        let thickness = (1.0 - full).log2() / exponent.min(-1e-6);
-        1.0 - (cut + thickness).clamp(0.0, 1.0)
+        let thickness = (1.0 - full).log2() / octaves.exponent.min(-1e-6);
+        1.0 - (octaves.low.threshold + thickness).clamp(0.0, 1.0)
     };
     let nodes = (0..NODES).map(|i| (i as f32 + 0.5) / NODES as f32 - 0.5);
     nodes.map(above).sum::<f32>() / NODES as f32
@@ -236,7 +233,7 @@ fn low_dome(octaves: &OctaveUniforms, opacity: f32) -> f32 {
 /// The same by the lit method: layers are independent but for the grain of their iteration, of which every rank is equally likely.
 fn lit_share(lit: &LitUniforms, opacity: f32) -> f32 {
     const RANKS: usize = 8;
-    let count = lit.dome[2] as usize;
+    let count = lit.count as usize;
     let open = Histogram::of([1.0].into_iter());
     let clear_with = |rank: usize| {
         let layers = lit.layers[..count].chunks(LAYERS_AN_ITERATION).enumerate();
@@ -244,11 +241,7 @@ fn lit_share(lit: &LitUniforms, opacity: f32) -> f32 {
             // Another iteration's grain is another one: any other order of the ranks.
             let rank = (rank * (1 + 2 * iteration)) % RANKS;
             let finer = (rank as f32 + 0.5) / RANKS as f32 - 0.5;
-            let grain = if layers[0].facing[2] > 0.0 {
-                finer
-            } else {
-                0.0
-            };
+            let grain = if layers[0].grain > 0.0 { finer } else { 0.0 };
             layers.iter().fold(all, |all, layer| {
                 Histogram::of_pairs(&all, &lit_clearness(layer, grain), |all, layer| all * layer)
             })
@@ -261,24 +254,23 @@ fn lit_share(lit: &LitUniforms, opacity: f32) -> f32 {
 /// What a layer leaves of the light behind it: every amount is equally likely.
 fn lit_clearness(layer: &LitLayerUniforms, grain: f32) -> Histogram {
     const AMOUNTS: usize = 512;
-    let [cut, steepness, most, _] = layer.shape;
     let clear = (0..AMOUNTS).map(|i| {
-        let thickness = ((i as f32 + 0.5) / AMOUNTS as f32 - cut).max(0.0);
-        let alpha = smoothstep(0.0, 1.0, steepness * thickness);
-        let rough = alpha + layer.facing[2] * grain * alpha * (1.0 - alpha);
-        1.0 - most * rough.clamp(0.0, 1.0)
+        let thickness = ((i as f32 + 0.5) / AMOUNTS as f32 - layer.threshold).max(0.0);
+        let alpha = smoothstep(0.0, 1.0, layer.steepness * thickness);
+        let rough = alpha + layer.grain * grain * alpha * (1.0 - alpha);
+        1.0 - layer.opacity * rough.clamp(0.0, 1.0)
     });
     Histogram::of(clear)
 }
 
 /// Shares of a dome and what each leaves of the light behind it, by the thickness above its cut.
 fn clearness(dome: &OctaveDome, of_thickness: impl Fn(f32) -> f32) -> Vec<[f32; 2]> {
-    let open = dome.place[3].clamp(0.0, 1.0);
+    let open = dome.threshold.clamp(0.0, 1.0);
     let node = |i: usize| {
         let amount = open + (1.0 - open) * (i as f32 + 0.5) / DOME_NODES as f32;
         [
             (1.0 - open) / DOME_NODES as f32,
-            of_thickness(amount - dome.place[3]),
+            of_thickness(amount - dome.threshold),
         ]
     };
     let clouds = (0..DOME_NODES).map(node).filter(|[share, _]| *share > 0.0);
