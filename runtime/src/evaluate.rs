@@ -12,7 +12,7 @@ use crate::frame::Uniforms;
 #[cfg(feature = "weather")]
 use crate::geometry::camera::Rays;
 use crate::geometry::camera::{self, Camera};
-use crate::geometry::math::{finite, vec4};
+use crate::geometry::math::finite;
 use crate::methods::MethodFrame;
 use crate::pack_data::PackData;
 use crate::params::{Method, SkyParams};
@@ -62,18 +62,17 @@ impl PackData {
             method.clouds().write(&mut uniforms, &frame);
         }
         #[cfg(feature = "weather")]
-        let flash = write_weather(&mut uniforms, &frame, &rays);
-        #[cfg(not(feature = "weather"))]
-        let flash = Vec3::ZERO;
+        let frame = MethodFrame {
+            flash: write_weather(&mut uniforms, &frame, &rays),
+            ..frame
+        };
         #[cfg(feature = "sprites")]
-        Method::Sprites
-            .clouds()
-            .write(&mut uniforms, &MethodFrame { flash, ..frame });
+        Method::Sprites.clouds().write(&mut uniforms, &frame);
 
         let shown = whole.method.clouds();
         let closing = shown.closing(&whole, view.place_m.y as f32, self);
-        let overcast = vec4(shown.overcast(&uniforms, self), closing);
-        uniforms.sky = gradient::uniforms(&light, &self.sky, params.time, night, overcast);
+        let overcast = shown.overcast(&uniforms, self);
+        uniforms.sky = gradient::uniforms(&light, &self.sky, params.time, night, overcast, closing);
         #[cfg(feature = "perez")]
         {
             uniforms.perez = perez::uniforms(&params.perez, params.sky, &light);
@@ -108,17 +107,17 @@ fn write_weather(uniforms: &mut Uniforms, frame: &MethodFrame<'_>, screen: &Rays
     uniforms.rain = rain::uniforms(params, view, screen, clouds, sunlight, &flash);
     uniforms.rays = rays::uniforms(params, &frame.light, clouds, screen, view.pixel_rad);
     uniforms.lightning = flash;
-    Vec3::from_slice(&flash.light)
+    flash.light
 }
 
 impl Variant {
     /// The least that draws a frame.
     pub fn of(uniforms: &Uniforms) -> Variant {
         Variant {
-            night: uniforms.sky.gradient[3] > 0.0,
-            upper_layer: uniforms.packed.shape[3] > 0.0,
+            night: uniforms.sky.night > 0.0,
+            upper_layer: uniforms.packed.upper_layer > 0.0,
             #[cfg(feature = "weather")]
-            weather: uniforms.rain.haze[3] > 0.0 || uniforms.lightning.light[1] > 0.0,
+            weather: uniforms.rain.haze_opacity > 0.0 || uniforms.lightning.light.y > 0.0,
             #[cfg(not(feature = "weather"))]
             weather: false,
         }

@@ -1,74 +1,92 @@
 //! A frame's uniforms, a struct a pass. `evaluate.rs` computes them.
 
-use bytemuck::{Pod, Zeroable};
-
 use crate::clear_sky::flares::FlareUniforms;
 use crate::clear_sky::galaxy::GalaxyUniforms;
 use crate::clear_sky::gradient::SkyUniforms;
+#[cfg(feature = "perez")]
 use crate::clear_sky::perez::PerezUniforms;
 use crate::clear_sky::skybox::SkyboxUniforms;
 use crate::clear_sky::stars::StarUniforms;
 use crate::clear_sky::sun::SunUniforms;
+#[cfg(feature = "fbm")]
 use crate::clouds::fbm::FbmUniforms;
+#[cfg(feature = "lit")]
 use crate::clouds::lit::LitUniforms;
+#[cfg(feature = "lit")]
 use crate::clouds::lit::shadow::ShadowUniforms;
+#[cfg(feature = "octaves")]
 use crate::clouds::octaves::OctaveUniforms;
 use crate::clouds::packed::PackedUniforms;
 use crate::clouds::shared::CloudUniforms;
 use crate::geometry::camera::CameraUniforms;
 use crate::geometry::part::Part;
+use crate::geometry::uniforms::uniforms;
+#[cfg(feature = "sprites")]
 use crate::sprites::SpriteUniforms;
 use crate::tonemap::TonemapUniforms;
+#[cfg(feature = "weather")]
 use crate::weather::lightning::LightningUniforms;
+#[cfg(feature = "weather")]
 use crate::weather::rain::RainUniforms;
+#[cfg(feature = "weather")]
 use crate::weather::rays::RayUniforms;
 
 /// The uniforms and what else the passes share.
 pub const PART: Part = Part {
     constants: &[],
+    structs: &[Uniforms::WGSL],
     wgsl: include_str!("frame.wgsl"),
 };
 
-/// The whole buffer, a struct a pass.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct Uniforms {
-    /// Where pixels look.
-    pub camera: CameraUniforms,
-    /// Clear sky.
-    pub sky: SkyUniforms,
-    /// Clear sky of Perez and others.
-    pub perez: PerezUniforms,
-    /// The sun's square.
-    pub sun: SunUniforms,
-    /// Stars.
-    pub stars: StarUniforms,
-    /// Galaxy.
-    pub galaxy: GalaxyUniforms,
-    /// The skybox.
-    pub skybox: SkyboxUniforms,
-    /// What the clouds of every method share.
-    pub clouds: CloudUniforms,
-    /// Clouds of the packed method.
-    pub packed: PackedUniforms,
-    /// Clouds of the octaves method.
-    pub octaves: OctaveUniforms,
-    /// Clouds of the fbm method.
-    pub fbm: FbmUniforms,
-    /// Clouds of the lit method.
-    pub lit: LitUniforms,
-    /// Clouds of the sprites method.
-    pub sprites: SpriteUniforms,
-    /// Shadows of the lit method's clouds.
-    pub shadow: ShadowUniforms,
-    /// A flash of lightning.
-    pub lightning: LightningUniforms,
-    /// Crepuscular rays.
-    pub rays: RayUniforms,
-    /// Rain.
-    pub rain: RainUniforms,
-    /// The lens flare.
-    pub flares: FlareUniforms,
-    /// The last step.
-    pub tonemap: TonemapUniforms,
+uniforms! {
+    /// Everything that is constant over a frame, a struct a pass.
+    Uniforms {
+        /// Where pixels look.
+        camera: CameraUniforms,
+        /// Clear sky.
+        sky: SkyUniforms,
+        /// Clear sky of Perez and others.
+        #[cfg(feature = "perez")]
+        perez: PerezUniforms,
+        /// The sun's square.
+        sun: SunUniforms,
+        /// Stars.
+        stars: StarUniforms,
+        /// Galaxy.
+        galaxy: GalaxyUniforms,
+        /// The skybox.
+        skybox: SkyboxUniforms,
+        /// What the clouds of every method share.
+        clouds: CloudUniforms,
+        /// Clouds of the packed method.
+        packed: PackedUniforms,
+        /// Clouds of the octaves method.
+        #[cfg(feature = "octaves")]
+        octaves: OctaveUniforms,
+        /// Clouds of the fbm method.
+        #[cfg(feature = "fbm")]
+        fbm: FbmUniforms,
+        /// Clouds of the lit method.
+        #[cfg(feature = "lit")]
+        lit: LitUniforms,
+        /// Clouds of the sprites method.
+        #[cfg(feature = "sprites")]
+        sprites: SpriteUniforms,
+        /// Shadows of the lit method's clouds.
+        #[cfg(feature = "lit")]
+        shadow: ShadowUniforms,
+        /// A flash of lightning.
+        #[cfg(feature = "weather")]
+        lightning: LightningUniforms,
+        /// Crepuscular rays.
+        #[cfg(feature = "weather")]
+        rays: RayUniforms,
+        /// Rain.
+        #[cfg(feature = "weather")]
+        rain: RainUniforms,
+        /// The lens flare.
+        flares: FlareUniforms,
+        /// The last step.
+        tonemap: TonemapUniforms,
+    }
 }

@@ -1,26 +1,4 @@
-// Everything that is constant over a frame. Each member's struct lives in the file of its pass;
-// the Rust file beside it holds the same struct, and a test compares the two layouts.
-struct Uniforms {
-    camera: CameraUniforms,
-    sky: SkyUniforms,
-    perez: PerezUniforms,
-    sun: SunUniforms,
-    stars: StarUniforms,
-    galaxy: GalaxyUniforms,
-    skybox: SkyboxUniforms,
-    clouds: CloudUniforms,
-    packed: PackedUniforms,
-    octaves: OctaveUniforms,
-    fbm: FbmUniforms,
-    lit: LitUniforms,
-    sprites: SpriteUniforms,
-    shadow: ShadowUniforms,
-    lightning: LightningUniforms,
-    rays: RayUniforms,
-    rain: RainUniforms,
-    flares: FlareUniforms,
-    tonemap: TonemapUniforms,
-}
+// What the passes share: the uniforms of frame.rs, what a frame needs, samplers and textures.
 
 // What a frame needs is compiled in, since some devices run both sides of a branch (device/pipeline.rs).
 override NIGHT: bool = true;

@@ -25,6 +25,18 @@
 //! # Ok(()) }
 //! ```
 
+// Not every choice of features uses all that methods share.
+#![cfg_attr(
+    not(all(
+        feature = "fbm",
+        feature = "lit",
+        feature = "octaves",
+        feature = "sprites",
+        feature = "weather"
+    )),
+    allow(dead_code)
+)]
+
 /// What the crate is made of, floor by floor, for its own tests: no part of what it promises.
 #[doc(hidden)]
 #[path = "."]

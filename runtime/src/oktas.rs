@@ -114,7 +114,7 @@ impl Oktas {
 
 /// The share of the counted sky that lies in the haze of the horizon, and what the haze leaves of opacity in its middle.
 fn haze(uniforms: &Uniforms) -> [f32; 2] {
-    let out = uniforms.clouds.sunlight[3].recip();
+    let out = uniforms.clouds.haze_scale.recip();
     let hazy = ((out - LEAST_SINE) / (1.0 - LEAST_SINE)).max(0.0);
     [hazy, smoothstep(0.0, out, 0.5 * (out + LEAST_SINE))]
 }

@@ -9,7 +9,7 @@ use crate::device::map;
 use crate::device::shader::{Build, compose};
 use crate::geometry::part::{Part, Value};
 use crate::geometry::{camera, dome};
-use crate::params::SkyModel;
+use crate::params::{Method, SkyModel};
 #[cfg(feature = "weather")]
 use crate::weather::{self, lightning, rain, rays};
 use crate::{frame, tonemap};
@@ -38,20 +38,32 @@ const WEATHER: &[Part] = &[lightning::PART, rays::PART, rain::PART, weather::PAR
 #[cfg(not(feature = "weather"))]
 const WEATHER: &[Part] = &[];
 
-/// The text of the shader of a dome: the parts that it needs, and no other.
-pub fn text(build: Build, dome: Dome) -> String {
-    let clouds = dome.method.clouds();
-    let sky: &[Part] = match dome.sky {
+/// What a sky model needs.
+fn sky_parts(sky: SkyModel) -> &'static [Part] {
+    match sky {
         SkyModel::Gradient => &[],
         #[cfg(feature = "perez")]
         SkyModel::Perez => &[perez::PART],
-    };
+    }
+}
+
+/// Every part.
+fn every() -> impl Iterator<Item = &'static Part> {
+    let methods = Method::ALL.into_iter().flat_map(|m| m.clouds().parts());
+    let skies = SkyModel::ALL.into_iter().flat_map(sky_parts);
+    COMMON.iter().chain(methods).chain(skies).chain(WEATHER)
+}
+
+/// The text of the shader of a dome: the parts that it needs. Structs are those of all parts, since the uniforms have them.
+pub fn text(build: Build, dome: Dome) -> String {
+    let clouds = dome.method.clouds();
+    let sky_parts = sky_parts(dome.sky);
     let (weather_parts, weather) = match dome.weather && !WEATHER.is_empty() {
         true => (WEATHER, "weather_over(radiance, direction, clouds)"),
         false => (&[][..], "radiance"),
     };
     let parts = COMMON.iter().chain(clouds.parts());
-    let parts = parts.chain(sky).chain(weather_parts);
+    let parts = parts.chain(sky_parts).chain(weather_parts);
     let (method, sky) = (dome.method.name(), dome.sky.name());
     let calls = [
         // Radiance and opacity of the clouds along a unit direction above the horizon, for a pixel that is so much narrower than one in
@@ -71,48 +83,26 @@ pub fn text(build: Build, dome: Dome) -> String {
         ),
     ];
     let own = [("ASK_OPAQUE", Value::Bool(clouds.is_often_opaque()))];
-    compose(build, &own, parts, &calls)
+    let structs = every().flat_map(|part| part.structs);
+    compose(build, &own, structs, parts, &calls)
 }
 
 /// What a pixel of the sky is put together from.
 const SKY: Part = Part {
     constants: &[],
+    structs: &[],
     wgsl: include_str!("sky.wgsl"),
 };
 
 #[cfg(test)]
 mod tests {
-    use std::mem::{offset_of, size_of};
-
     use naga::valid::{Capabilities, ValidationFlags, Validator};
     use naga::{Module, TypeInner};
 
     use super::*;
 
-    use crate::clear_sky::flares::FlareUniforms;
-    use crate::clear_sky::galaxy::GalaxyUniforms;
-    use crate::clear_sky::gradient::SkyUniforms;
-    use crate::clear_sky::perez::PerezUniforms;
-    use crate::clear_sky::skybox::SkyboxUniforms;
-    use crate::clear_sky::stars::StarUniforms;
-    use crate::clear_sky::sun::SunUniforms;
-    use crate::clouds::fbm::FbmUniforms;
-    use crate::clouds::lit::shadow::ShadowUniforms;
-    use crate::clouds::lit::{LitLayerUniforms, LitUniforms};
-    use crate::clouds::octaves::{OctaveDome, OctaveUniforms};
-    use crate::clouds::packed::PackedUniforms;
-    use crate::clouds::shared::CloudUniforms;
     use crate::device::config::Output;
     use crate::frame::Uniforms;
-    use crate::geometry::camera::CameraUniforms;
-    use crate::params::Method;
-    use crate::sprites::SpriteUniforms;
-    use crate::sprites::pipelines::SpriteBlock;
-    use crate::sprites::ring::{RingSet, RingUniforms, SpriteView};
-    use crate::tonemap::TonemapUniforms;
-    use crate::weather::lightning::LightningUniforms;
-    use crate::weather::rain::RainUniforms;
-    use crate::weather::rays::RayUniforms;
 
     fn parse((build, dome): (Build, Dome)) -> Module {
         let text = text(build, dome);
@@ -255,128 +245,15 @@ mod tests {
         )
     }
 
-    macro_rules! assert_same_layout {
-        ($module:expr, $name:ident, $($field:ident),+) => {
-            let rust = vec![$((stringify!($field).to_string(), offset_of!($name, $field) as u32)),+];
-            assert_eq!(layout($module, stringify!($name)), (rust, size_of::<$name>() as u32), stringify!($name));
-        };
-    }
-
     #[test]
     fn rust_and_wgsl_agree_on_the_layout_of_every_struct() {
         let module = &parse(builds()[0]);
-        assert_same_layout!(
-            module,
-            CameraUniforms,
-            right,
-            up,
-            forward,
-            clip_x,
-            clip_y,
-            clip_w
-        );
-        assert_same_layout!(
-            module,
-            SkyUniforms,
-            gradient,
-            sun,
-            wide,
-            narrow,
-            band,
-            overcast
-        );
-        assert_same_layout!(module, PerezUniforms, sun, a, b, c, d, e, base, zenith);
-        assert_same_layout!(module, SunUniforms, right, up, disc, glow, towards);
-        assert_same_layout!(module, StarUniforms, field, spread);
-        assert_same_layout!(module, GalaxyUniforms, light, grain);
-        assert_same_layout!(module, SkyboxUniforms, mix);
-        assert_same_layout!(module, CloudUniforms, gradient, sunlight, ambient, tint);
-        assert_same_layout!(
-            module,
-            PackedUniforms,
-            photo,
-            noise,
-            detail,
-            upper,
-            levels,
-            shape
-        );
-        assert_same_layout!(module, OctaveDome, axes, place);
-        assert_same_layout!(
-            module,
-            OctaveUniforms,
-            low,
-            middle,
-            high,
-            shape,
-            sun,
-            cells_a,
-            cells_b,
-            map
-        );
-        assert_same_layout!(
-            module,
-            FbmUniforms,
-            axes,
-            place,
-            remap,
-            lit,
-            shaded,
-            step,
-            offsets_a,
-            offsets_b,
-            offsets_c,
-            offsets_d,
-            weights_a,
-            weights_b
-        );
-        assert_same_layout!(module, LitLayerUniforms, axes, place, shape, sun, facing);
-        assert_same_layout!(
-            module,
-            LitUniforms,
-            dome,
-            light,
-            towards,
-            source,
-            ambient,
-            layers
-        );
-        assert_same_layout!(
-            module,
-            SpriteUniforms,
-            sun,
-            colour,
-            ambient,
-            air,
-            fade,
-            flash,
-            flash_place
-        );
-        assert_same_layout!(module, SpriteView, clip_x, clip_y, clip_z, clip_w, viewer);
-        assert_same_layout!(module, SpriteBlock, origin, slot);
-        assert_same_layout!(module, RingSet, place, span);
-        assert_same_layout!(module, RingUniforms, used, next, walls, sides);
-        assert_same_layout!(module, ShadowUniforms, layers);
-        assert_same_layout!(module, LightningUniforms, place, light);
-        assert_same_layout!(module, RayUniforms, sun, right, up, bright, dark);
-        assert_same_layout!(
-            module,
-            RainUniforms,
-            right,
-            up,
-            forward,
-            sight,
-            streak,
-            haze,
-            places,
-            sizes
-        );
-        assert_same_layout!(module, FlareUniforms, light, places, colours, cells);
-        assert_same_layout!(module, TonemapUniforms, display);
-        assert_same_layout!(
-            module, Uniforms, camera, sky, perez, sun, stars, galaxy, skybox, clouds, packed,
-            octaves, fbm, lit, sprites, shadow, lightning, rays, rain, flares, tonemap
-        );
+        for own in every().flat_map(|part| part.structs) {
+            let members = own.members.iter();
+            let rust = members.map(|m| (m.name.to_string(), m.offset as u32));
+            let rust = (rust.collect(), own.size as u32);
+            assert_eq!(layout(module, own.name), rust, "{}", own.name);
+        }
         assert_eq!(
             size_of::<Uniforms>() % 16,
             0,

@@ -250,7 +250,7 @@ impl Sky {
             method: params.method,
             sky: params.sky,
             variant,
-            flare: uniforms.flares.light[0] > 0.0,
+            flare: uniforms.flares.strength > 0.0,
             #[cfg(feature = "weather")]
             weather,
             #[cfg(feature = "lit")]
@@ -278,9 +278,9 @@ impl Sky {
         };
         let (common, shared) = (&self.common, &self.shared);
         self.sprites.record(common, queue, encoder, shared, &frame);
-        if uniforms.flares.light[0] > 0.0 {
-            let sun = glam::Vec3::from_slice(&uniforms.sky.sun);
-            uniforms.flares.light[0] *= self.sprites.clear_towards_sun(&frame, sun);
+        if uniforms.flares.strength > 0.0 {
+            let sun = uniforms.sky.sun_direction;
+            uniforms.flares.strength *= self.sprites.clear_towards_sun(&frame, sun);
         }
         uniforms
     }

@@ -4,7 +4,7 @@ fn behind_clouds(direction: vec3f, pixel: vec2f) -> vec3f {
     if NIGHT && direction.y > 0.0 {
         let dome = direction_to_dome(direction);
         let galaxy = galaxy_brightness(dome);
-        let night = galaxy * uniforms.galaxy.light.rgb + star_radiance(dome, direction, pixel, galaxy);
+        let night = galaxy * uniforms.galaxy.radiance + star_radiance(dome, direction, pixel, galaxy);
         radiance += night * smoothstep(0.0, EXTINCTION, direction.y);
     }
     radiance += sun_radiance(direction);

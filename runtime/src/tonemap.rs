@@ -12,9 +12,10 @@
 //! # Practice
 //! A float target gets raw radiance, and none of this.
 
-use bytemuck::{Pod, Zeroable};
+use glam::Vec2;
 
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
 
 /// Its part of the shader.
@@ -23,15 +24,20 @@ pub const PART: Part = Part {
         ("TONE_SHOULDER", Value::F32(SHOULDER)),
         ("TONE_KNEE", Value::F32(KNEE)),
     ],
+    structs: &[TonemapUniforms::WGSL],
     wgsl: include_str!("tonemap.wgsl"),
 };
 
-/// The last step.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct TonemapUniforms {
-    /// x: exposure; y: size of the dither, 0 for none.
-    pub display: [f32; 4],
+uniforms! {
+    /// The last step.
+    TonemapUniforms {
+        /// Factor on the radiance.
+        exposure: f32,
+        /// Size of the dither, 0 for none.
+        dither: f32,
+        /// Nothing.
+        _pad: Vec2,
+    }
 }
 
 /// `a`: how hard the shoulder is.
@@ -41,8 +47,9 @@ pub const KNEE: f32 = 0.244;
 
 /// The last step's share of the uniforms. `step` is that of the target's encoding.
 pub fn uniforms(params: &SkyParams, step: f32) -> TonemapUniforms {
-    let dither = if params.dither { step } else { 0.0 };
     TonemapUniforms {
-        display: [params.exposure, dither, 0.0, 0.0],
+        exposure: params.exposure,
+        dither: if params.dither { step } else { 0.0 },
+        ..Default::default()
     }
 }

@@ -1,7 +1,4 @@
 // The last step: tone curve, dither, encoding. Theory and CPU part: tonemap.rs.
-struct TonemapUniforms {
-    display: vec4f, // x: exposure; y: size of the dither, 0 for none; zw: not used
-}
 
 fn tone_curve(radiance: vec3f) -> vec3f {
     let x = max(radiance, vec3f(0.0));
@@ -26,7 +23,7 @@ fn display_colour(radiance: vec3f) -> vec3f {
     if OUTPUT == OUTPUT_RADIANCE {
         return radiance;
     }
-    let display = tone_curve(radiance * uniforms.tonemap.display.x);
+    let display = tone_curve(radiance * uniforms.tonemap.exposure);
     if OUTPUT == OUTPUT_ENCODED {
         return srgb_encode(display);
     }
@@ -38,7 +35,7 @@ fn finish(radiance: vec3f, pixel: vec2f) -> vec4f {
     if OUTPUT == OUTPUT_RADIANCE {
         return vec4f(colour, 1.0);
     }
-    let step = uniforms.tonemap.display.y * dither_noise(pixel);
+    let step = uniforms.tonemap.dither * dither_noise(pixel);
     if OUTPUT == OUTPUT_ENCODED {
         return vec4f(colour + step, 1.0);
     }

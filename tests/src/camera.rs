@@ -3,22 +3,21 @@
 use glam::{Vec2, Vec3};
 use welkin_runtime::geometry::camera::CameraUniforms;
 
-use crate::vector::xyz;
-
 /// Direction of a pixel, not normalised; (0.5, 0.5) is the centre of the upper left pixel.
 pub fn ray_of(camera: &CameraUniforms, pixel: Vec2) -> Vec3 {
     let ndc = Vec2::new(
-        pixel.x / camera.right[3] * 2.0 - 1.0,
-        1.0 - pixel.y / camera.up[3] * 2.0,
+        pixel.x / camera.width_px * 2.0 - 1.0,
+        1.0 - pixel.y / camera.height_px * 2.0,
     );
-    xyz(camera.forward) + xyz(camera.right) * ndc.x + xyz(camera.up) * ndc.y
+    camera.forward + camera.right * ndc.x + camera.up * ndc.y
 }
 
 /// Pixel coordinates of a direction in front of the camera.
 pub fn pixel_of(camera: &CameraUniforms, direction: Vec3) -> Vec2 {
-    let clip = [camera.clip_x, camera.clip_y, camera.clip_w].map(|row| direction.dot(xyz(row)));
+    let clip =
+        [camera.clip_x, camera.clip_y, camera.clip_w].map(|row| direction.dot(row.truncate()));
     let ndc = Vec2::new(clip[0], clip[1]) / clip[2];
-    (ndc * Vec2::new(0.5, -0.5) + 0.5) * Vec2::new(camera.right[3], camera.up[3])
+    (ndc * Vec2::new(0.5, -0.5) + 0.5) * Vec2::new(camera.width_px, camera.height_px)
 }
 
 #[cfg(test)]

@@ -8,7 +8,6 @@ use welkin_runtime::frame::Uniforms;
 
 use crate::dome::DomeHit;
 use crate::texture::{Texture, smoothstep};
-use crate::vector::xyz;
 
 /// What a layer of clouds is computed from.
 #[derive(Clone, Copy, Debug)]
@@ -39,12 +38,12 @@ impl Inputs<'_> {
 /// Radiance of display-referred grey.
 pub fn light(clouds: &CloudUniforms, grey: Vec3) -> Vec3 {
     let bright = CORE + (1.0 - CORE) * grey;
-    bright * (bright * xyz(clouds.sunlight) + xyz(clouds.ambient))
+    bright * (bright * clouds.sunlight + clouds.ambient)
 }
 
 /// Display-referred colour of a grey under the sunset tint.
 pub fn tinted(clouds: &CloudUniforms, grey: f32, tint: f32) -> Vec3 {
-    grey * Vec3::ONE.lerp(xyz(clouds.tint), tint)
+    grey * Vec3::ONE.lerp(clouds.tint, tint)
 }
 
 /// Opacity with its foot softened.
@@ -54,14 +53,15 @@ pub fn soften(alpha: f32, edge: f32) -> f32 {
 
 /// How far the sunset tints clouds in a direction.
 pub fn tint(clouds: &CloudUniforms, texture: &Texture, direction: Vec3) -> f32 {
-    let [east, south, first, span] = clouds.gradient;
-    let place = mapping::direction_to_gradient(direction.to_array(), [east, south]);
-    clouds.tint[3] * texture.sample([0.5, first + span * place], 0.0)[3]
+    let azimuth = clouds.sun_azimuth.to_array();
+    let place = mapping::direction_to_gradient(direction.to_array(), azimuth);
+    let v = clouds.gradient_start + clouds.gradient_span * place;
+    clouds.sunset * texture.sample([0.5, v], 0.0)[3]
 }
 
 /// What the haze of the horizon leaves of a cloud.
 pub fn clearness(clouds: &CloudUniforms, direction: Vec3) -> f32 {
-    smoothstep(0.0, 1.0, clouds.sunlight[3] * direction.y)
+    smoothstep(0.0, 1.0, clouds.haze_scale * direction.y)
 }
 
 /// Level of detail of a texture with one texel a height of the layer.

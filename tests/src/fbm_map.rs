@@ -37,15 +37,15 @@ pub fn allowance(fbm: &FbmUniforms, layers: &[Texture]) -> ([f32; 4], [f32; 4]) 
 
 /// A map of something that follows from the sums of the octaves, three, two, one and no steps towards the sun.
 fn map(fbm: &FbmUniforms, layers: &[Texture], texel: impl Fn([f32; 4]) -> [f32; 4]) -> Image {
-    let [_, _, count, side] = fbm.remap;
-    let offsets = [fbm.offsets_a, fbm.offsets_b, fbm.offsets_c, fbm.offsets_d].concat();
-    let weights = [fbm.weights_a, fbm.weights_b].concat();
+    let side = fbm.resolution;
+    let offsets = fbm.offsets.map(|two| two.to_array()).concat();
+    let weights = fbm.weights.map(|four| four.to_array()).concat();
     let (width, height) = (side as u32, side as u32);
     let mut map = Image::new(width, height, 4);
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         let (u, v) = ((x as f32 + 0.5) / side, (y as f32 + 0.5) / side);
         let mut sums = [0.0; 4];
-        for k in 0..count as usize {
+        for k in 0..fbm.count as usize {
             let read = layers[k].sample([u + offsets[2 * k], v + offsets[2 * k + 1]], 0.0);
             for (sum, noise) in sums.iter_mut().zip(read) {
                 *sum += weights[k] * noise;
@@ -57,9 +57,8 @@ fn map(fbm: &FbmUniforms, layers: &[Texture], texel: impl Fn([f32; 4]) -> [f32; 
 }
 
 fn texel(fbm: &FbmUniforms, sums: [f32; 4]) -> [f32; 4] {
-    let [m, n, ..] = fbm.remap;
-    let cover = (m * sums[3] + n).clamp(0.0, 1.0);
-    let shade = shade(sums.map(|sum| m * sum + fbm.step[3]));
+    let cover = (fbm.slope * sums[3] + fbm.intercept).clamp(0.0, 1.0);
+    let shade = shade(sums.map(|sum| fbm.slope * sum + fbm.ray_intercept));
     [shade, sums[3], 0.0, cover]
 }
 

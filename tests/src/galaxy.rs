@@ -17,7 +17,6 @@ pub fn brightness(
     let direction = direction.to_array();
     let [stored, ..] = texture.sample(mapping::direction_to_galaxy_uv(direction), 0.0);
     let plane = Vec2::from(mapping::direction_to_dome(direction));
-    let [_, noise, detail, _] = clouds.sample((plane * GRAIN_SCALE).to_array(), uniforms.light[3]);
-    let [plain, of_noise, of_detail, _] = uniforms.grain;
-    stored * stored * (plain + of_noise * noise + of_detail * detail)
+    let [_, noise, detail, _] = clouds.sample((plane * GRAIN_SCALE).to_array(), uniforms.grain_lod);
+    stored * stored * (uniforms.plain + uniforms.noise * noise + uniforms.detail * detail)
 }

@@ -38,6 +38,3 @@ pub mod stars;
 pub mod sun;
 pub mod texture;
 pub mod tonemap;
-mod vector;
-
-pub use vector::xyz;

@@ -9,7 +9,6 @@ use welkin_runtime::clouds::lit::{LitLayerUniforms, LitUniforms};
 use welkin_runtime::params::LAYERS_AN_ITERATION;
 
 use crate::clouds::{self, Inputs};
-use crate::vector::xyz;
 
 /// Channels of the map that are read of a layer: light that falls on it, opacity, shade.
 pub const READS: usize = 3;
@@ -23,14 +22,14 @@ pub fn reads(lit: &LitUniforms) -> usize {
 }
 
 fn count(lit: &LitUniforms) -> usize {
-    lit.dome[2] as usize
+    lit.count as usize
 }
 
 /// Distance to the oblate hemisphere along a unit direction, in its heights: where
 /// `f^2 (x^2 + z^2) + y^2 = 1` in heights, f the flattening.
 pub fn distance(lit: &LitUniforms, direction: Vec3) -> f32 {
     let across = direction.x * direction.x + direction.z * direction.z;
-    1.0 / libm::sqrtf(lit.dome[0] * across + direction.y * direction.y)
+    1.0 / libm::sqrtf(lit.flattening_squared * across + direction.y * direction.y)
 }
 
 /// Level of detail of a texture with one texel a height: the logarithm of the footprint's geometric mean. Of the place
@@ -43,14 +42,14 @@ fn level(distance: f32, direction: Vec3, narrowing: f32) -> f32 {
 
 /// What comes through a cloud: equation 4 over L.
 pub fn through(lit: &LitUniforms, direction: Vec3) -> f32 {
-    let [k1, k2, m] = [lit.light[3], lit.towards[3], lit.ambient[3]];
-    libm::powf((k1 + k2 * direction.dot(xyz(lit.towards))).max(0.0), m)
+    let scattered = lit.k1 + lit.k2 * direction.dot(lit.light_direction);
+    libm::powf(scattered.max(0.0), lit.m)
 }
 
 /// Light of a cloud: equation 6, and that of the sky.
 pub fn light(lit: &LitUniforms, through: f32, falls: f32, shade: f32) -> Vec3 {
     let [least, more] = AMBIENT;
-    xyz(lit.light) * ((through + falls) * shade) + xyz(lit.ambient) * (least + more * shade)
+    lit.light * ((through + falls) * shade) + lit.ambient * (least + more * shade)
 }
 
 /// How a finer read of the pack's texture roughens the layers of an iteration.
@@ -90,45 +89,39 @@ pub fn clouds(inputs: &Inputs, place: impl Fn(usize) -> (Vec2, f32)) -> Vec<Clou
 
 /// The places of the plane whose shade is blurred to that of the first: on the straight line to where sun or moon is seen.
 pub fn places(lit: &LitUniforms, index: usize, plane: Vec2) -> [Vec2; 3] {
-    let source = Vec2::new(lit.source[0], lit.source[1]);
-    let way = (source - plane).clamp_length_max(LONGEST_WAY);
-    [0.0, 1.0, 2.0].map(|step| plane + way * (step * lit.layers[index].sun[0]))
+    let way = (lit.light_position - plane).clamp_length_max(LONGEST_WAY);
+    [0.0, 1.0, 2.0].map(|step| plane + way * (step * lit.layers[index].blur_step))
 }
 
 /// Where a layer is read.
 fn uv(layer: &LitLayerUniforms, plane: Vec2) -> Vec2 {
-    let [east_u, east_v, south_u, south_v] = layer.axes;
-    Vec2::new(east_u, east_v) * plane.x
-        + Vec2::new(south_u, south_v) * plane.y
-        + Vec2::new(layer.place[0], layer.place[1])
+    layer.east_axis * plane.x + layer.south_axis * plane.y + layer.offset
 }
 
 /// The grain of the iteration whose lowest layer this is.
 fn grain_at(inputs: &Inputs, lowest: usize, plane: Vec2, level: f32) -> Grain {
     let lit = &inputs.uniforms.lit;
     let layer = &lit.layers[lowest];
-    let [facing_u, facing_v, share, _] = layer.facing;
-    if share == 0.0 {
+    if layer.grain == 0.0 {
         return Grain::default();
     }
     let iteration = lowest / LAYERS_AN_ITERATION;
     let nudges = &inputs.nudges[READS * count(lit) + GRAIN_READS * iteration..];
     let uv = uv(layer, plane) * FINER + Vec2::from(FINER_START);
-    let [_, _, own_level, kind] = layer.sun;
-    let level = level + own_level + libm::log2f(FINER);
-    let [x, y, _, rank] = inputs.layers[kind as usize].sample(uv.to_array(), level);
+    let level = level + layer.lod_bias + libm::log2f(FINER);
+    let [x, y, _, rank] = inputs.layers[layer.kind as usize].sample(uv.to_array(), level);
     let normal = Vec2::new(x + nudges[0], y + nudges[1]) * 2.0 - 1.0;
     Grain {
         denser: rank + nudges[2] - 0.5,
-        across: FINER_RELIEF * normal.dot(Vec2::new(facing_u, facing_v)),
+        across: FINER_RELIEF * normal.dot(layer.sun_uv),
     }
 }
 
 fn cloud(inputs: &Inputs, index: usize, plane: Vec2, level: f32, grain: Grain) -> Cloud {
     let layer = &inputs.uniforms.lit.layers[index];
     let at = uv(layer, plane).to_array();
-    let [falls, _, thin, own] = inputs.map[index].sample(at, level + layer.sun[2]);
-    let coarse = (level + layer.sun[2]).max(0.0) + BLUR_LEVEL;
+    let [falls, _, thin, own] = inputs.map[index].sample(at, level + layer.lod_bias);
+    let coarse = (level + layer.lod_bias).max(0.0) + BLUR_LEVEL;
     let shade: f32 = BLUR
         .iter()
         .zip(places(&inputs.uniforms.lit, index, plane))
@@ -140,11 +133,11 @@ fn cloud(inputs: &Inputs, index: usize, plane: Vec2, level: f32, grain: Grain) -
         .sum();
     let nudges = &inputs.nudges[index * READS..];
     let (falls, thin) = (falls + nudges[0], thin + nudges[1]);
-    let share = layer.facing[2];
+    let share = layer.grain;
     let opacity = thin + share * grain.denser * thin * (1.0 - thin);
     Cloud {
         falls: (falls + share * grain.across).max(0.0),
-        opacity: opacity.clamp(0.0, 1.0) * layer.shape[2],
+        opacity: opacity.clamp(0.0, 1.0) * layer.opacity,
         shade: shade + nudges[2],
     }
 }
@@ -168,7 +161,7 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     }
     let alpha = 1.0 - clear;
     let tint = clouds::tint(uniforms, inputs.clouds, direction);
-    let tint = Vec3::ONE.lerp(xyz(uniforms.tint), tint);
+    let tint = Vec3::ONE.lerp(uniforms.tint, tint);
     (
         radiance * tint / alpha.max(1e-4),
         alpha * clouds::clearness(uniforms, direction),
@@ -209,14 +202,14 @@ mod tests {
                     light(lit, through, falls, shade) / count as f32
                 })
                 .sum::<Vec3>();
-            let found = xyz(uniforms.sky.overcast);
+            let found = uniforms.sky.overcast;
             // The runtime takes few azimuths, which is exact up to the sixteenth power of a cosine.
             let apart = (found - mean).abs();
             assert!(
                 apart.cmple(mean * 1e-3).all(),
                 "{time} {density}: {found}, {mean}"
             );
-            assert_eq!(uniforms.sky.overcast[3], 1.0);
+            assert_eq!(uniforms.sky.overcast_weight, 1.0);
         }
     }
 }

@@ -59,10 +59,10 @@ pub fn most_change(from: &LitUniforms, to: &LitUniforms, kinds: &[Texture]) -> V
     let layers = from.layers.iter().zip(&to.layers);
     let off: Vec<f32> = layers
         .map(|(from, to)| {
-            let kind = &kinds[from.sun[3] as usize];
-            let turn =
-                |i: usize| (to.place[i] - from.place[i]) - (to.place[i] - from.place[i]).round();
-            let texels = kind.levels()[0].width as f32 * (turn(2).abs() + turn(3).abs());
+            let kind = &kinds[from.kind as usize];
+            let turn = to.second_offset - from.second_offset;
+            let turn = (turn - turn.round()).abs();
+            let texels = kind.levels()[0].width as f32 * (turn.x + turn.y);
             WEIGHTS[1] * (texels * steepest(&kind.levels()[0]) + 2.0 / 255.0)
         })
         .collect();
@@ -130,10 +130,10 @@ fn map(
     kinds: &[Texture],
     texel: impl Fn(&LitLayerUniforms, usize, [f32; 4]) -> [f32; 4],
 ) -> Vec<Image> {
-    let [_, _, count, side] = lit.dome;
-    let layers = lit.layers.iter().take(count as usize).enumerate();
+    let side = lit.resolution;
+    let layers = lit.layers.iter().take(lit.count as usize).enumerate();
     let draw = |(index, layer): (usize, &LitLayerUniforms)| {
-        let kind = &kinds[layer.sun[3] as usize];
+        let kind = &kinds[layer.kind as usize];
         let mut image = Image::new(side as u32, side as u32, 4);
         for (i, out) in image.texels.chunks_exact_mut(4).enumerate() {
             let place = |i: usize| (i as f32 + 0.5) / side;
@@ -147,38 +147,38 @@ fn map(
 
 /// Both reads of the pack's texture: normal, density, rank.
 fn blend(layer: &LitLayerUniforms, kind: &Texture, [u, v]: [f32; 2]) -> [f32; 4] {
-    let [_, _, away_u, away_v] = layer.place;
-    let [here, other] = [[u, v], [u + away_u, v + away_v]].map(|uv| kind.sample(uv, 0.0));
+    let away = layer.second_offset;
+    let [here, other] = [[u, v], [u + away.x, v + away.y]].map(|uv| kind.sample(uv, 0.0));
     mix(here, other, WEIGHTS[1])
 }
 
 /// What the blended read of a place makes of a texel.
 pub(crate) fn texel(lit: &LitUniforms, layer: &LitLayerUniforms, read: [f32; 4]) -> [f32; 4] {
-    let [cut, to_opaque, _, deepening] = layer.shape;
     let [x, y, density, rank] = read;
     let amount = even(rank);
     // Equation 5. Under an overcast the cut is below 0, and what lies under 0 does not shade.
-    let thick = (amount - cut.max(0.0)).max(0.0) * (0.5 + density);
+    let thick = (amount - layer.threshold.max(0.0)).max(0.0) * (0.5 + density);
     // What a thickness leaves of the light, so often as the exponent says.
-    let left = libm::exp2f(-deepening * thick);
+    let left = libm::exp2f(-layer.shade_rate * thick);
     [
         falls(lit, layer, [x, y]),
         amount,
-        smoothstep(0.0, 1.0, to_opaque * (amount - cut)),
-        libm::powf(left, lit.ambient[3]),
+        smoothstep(0.0, 1.0, layer.steepness * (amount - layer.threshold)),
+        libm::powf(left, lit.m),
     ]
 }
 
 /// Equation 3 over L: the normal, as flat as the layer's relief, on the direction to the sun.
 fn falls(lit: &LitUniforms, layer: &LitLayerUniforms, stored: [f32; 2]) -> f32 {
-    let [facing_u, facing_v, _, relief] = layer.facing;
-    let [x, y] = stored.map(|part| relief * (2.0 * part - 1.0));
+    let [x, y] = stored.map(|part| layer.relief * (2.0 * part - 1.0));
     let up = libm::sqrtf((1.0 - x * x - y * y).max(LEAST_UP));
-    (x * facing_u + y * facing_v + up * lit.towards[1]).max(0.0)
+    (x * layer.sun_uv.x + y * layer.sun_uv.y + up * lit.light_direction.y).max(0.0)
 }
 
 #[cfg(test)]
 mod tests {
+    use glam::{Vec2, Vec3};
+
     use super::*;
 
     #[test]
@@ -201,13 +201,17 @@ mod tests {
     #[test]
     fn equations_give_what_they_give_by_hand() {
         let lit = LitUniforms {
-            towards: [0.0, 0.5, 0.0, 0.0],
-            ambient: [0.0, 0.0, 0.0, 2.0],
+            light_direction: Vec3::new(0.0, 0.5, 0.0),
+            m: 2.0,
             ..Default::default()
         };
         let layer = LitLayerUniforms {
-            shape: [0.2, 2.5, 1.0, 0.8],
-            facing: [0.6, 0.25, 0.0, 1.0],
+            threshold: 0.2,
+            steepness: 2.5,
+            opacity: 1.0,
+            shade_rate: 0.8,
+            sun_uv: Vec2::new(0.6, 0.25),
+            relief: 1.0,
             ..Default::default()
         };
         let [falls, amount, opacity, shade] = texel(&lit, &layer, [0.8, 0.5, 0.25, 0.5]);

@@ -17,10 +17,7 @@ pub fn alpha(thickness: f32, exponent: f32) -> f32 {
 
 /// Where a dome reads the map.
 fn uv(dome: &OctaveDome, plane: Vec2) -> Vec2 {
-    let [east_u, east_v, south_u, south_v] = dome.axes;
-    Vec2::new(east_u, east_v) * plane.x
-        + Vec2::new(south_u, south_v) * plane.y
-        + Vec2::new(dome.place[0], dome.place[1])
+    dome.east_axis * plane.x + dome.south_axis * plane.y + dome.offset
 }
 
 /// See [`crate::methods::layer`]. Reads: opacity and grey of the low clouds, the finer amount, opacity of the middle clouds,
@@ -29,31 +26,31 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     let (octaves, uniforms) = (&inputs.uniforms.octaves, &inputs.uniforms.clouds);
     let hit = dome::intersect(direction);
     let level = clouds::level(&hit, narrowing);
-    let [thin_grey, to_full] = [0.5 + 0.5 * octaves.map[2], octaves.map[3]];
+    let thin_grey = 0.5 + 0.5 * octaves.edge_grey;
     let map =
-        |dome: &OctaveDome| inputs.map_at(uv(dome, hit.plane).to_array(), level + dome.place[2]);
+        |dome: &OctaveDome| inputs.map_at(uv(dome, hit.plane).to_array(), level + dome.lod_bias);
     // One grey for all domes: that of thin clouds, and where the low dome is opaque, its own.
     let (mut grey, mut clear) = (thin_grey, 1.0);
-    if octaves.low.place[3] < 1.0 {
+    if octaves.low.threshold < 1.0 {
         let [_, alpha, _, own] = map(&octaves.low);
         let (alpha, own) = (alpha + inputs.nudges[0], own + inputs.nudges[1]);
         let finer_uv = uv(&octaves.low, hit.plane) * FINER + Vec2::from(FINER_START);
-        let finer_level = level + octaves.low.place[2] + libm::log2f(FINER);
+        let finer_level = level + octaves.low.lod_bias + libm::log2f(FINER);
         let [finer, ..] = inputs.map_at(finer_uv.to_array(), finer_level);
         let finer = finer + inputs.nudges[2] - 0.5;
-        let rough = octaves.shape[3] * finer * alpha * (1.0 - alpha);
+        let rough = octaves.roughness * finer * alpha * (1.0 - alpha);
         let alpha = (alpha + rough).clamp(0.0, 1.0);
         grey += (own + ROUGH_GREY * finer - grey) * alpha;
         clear *= 1.0 - alpha;
     }
-    if octaves.middle.place[3] < 1.0 {
+    if octaves.middle.threshold < 1.0 {
         let [_, _, alpha, _] = map(&octaves.middle);
         clear *= 1.0 - MIDDLE_OPACITY * (alpha + inputs.nudges[3]);
     }
-    if octaves.high.place[3] < 1.0 {
+    if octaves.high.threshold < 1.0 {
         let [amount, ..] = map(&octaves.high);
-        let thickness = amount + inputs.nudges[4] - octaves.high.place[3];
-        clear *= 1.0 - HIGH_OPACITY * smoothstep(0.0, 1.0, thickness * to_full);
+        let thickness = amount + inputs.nudges[4] - octaves.high.threshold;
+        clear *= 1.0 - HIGH_OPACITY * smoothstep(0.0, 1.0, thickness * octaves.high_contrast);
     }
     let tint = clouds::tint(uniforms, inputs.clouds, direction);
     (

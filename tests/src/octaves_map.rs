@@ -27,25 +27,31 @@ pub fn normal_share(z: f32) -> f32 {
 /// Level 0 of the map, not rounded: amount, opacity of the low and of the middle dome, grey of the low dome.
 /// `states` are those of [`welkin_runtime::clouds::octaves::map::states`].
 pub fn render(octaves: &OctaveUniforms, states: &[f32]) -> Image {
-    let [count, side, edge_grey, _] = octaves.map;
-    let [exponent, darkening, relief, _] = octaves.shape;
+    let OctaveUniforms {
+        count,
+        exponent,
+        darkening,
+        relief,
+        edge_grey,
+        ..
+    } = *octaves;
+    let side = octaves.resolution;
     let large = RELIEF_COUNT.min(count as i32) as usize;
     let here = sums(octaves, states, 0..count as usize, Vec2::ZERO);
     // Towards the sun only the large octaves have another value.
-    let step = Vec2::new(octaves.sun[0], octaves.sun[1]);
     let large_here = sums(octaves, states, 0..large, Vec2::ZERO);
-    let large_away = sums(octaves, states, 0..large, step);
+    let large_away = sums(octaves, states, 0..large, octaves.sun_step);
     let mut map = Image::new(side as u32, side as u32, 4);
     for (index, texel) in map.texels.chunks_exact_mut(4).enumerate() {
         let amount = normal_share(here[index]);
         let towards_sun = normal_share(here[index] + large_away[index] - large_here[index]);
-        let thickness = amount - octaves.low.place[3];
+        let thickness = amount - octaves.low.threshold;
         let grey = edge_grey + relief * (amount - towards_sun)
-            - darkening * (amount - octaves.low.place[3].max(0.0)).max(0.0);
+            - darkening * (amount - octaves.low.threshold.max(0.0)).max(0.0);
         texel.copy_from_slice(&[
             amount,
             alpha(thickness, exponent),
-            alpha(amount - octaves.middle.place[3], THIN * exponent),
+            alpha(amount - octaves.middle.threshold, THIN * exponent),
             grey,
         ]);
     }
@@ -54,8 +60,8 @@ pub fn render(octaves: &OctaveUniforms, states: &[f32]) -> Image {
 
 /// The weighted sum of some octaves at every texel, read `away` from it.
 fn sums(octaves: &OctaveUniforms, states: &[f32], which: Range<usize>, away: Vec2) -> Vec<f32> {
-    let side = octaves.map[1] as usize;
-    let copies = [octaves.cells_a, octaves.cells_b].concat();
+    let side = octaves.resolution as usize;
+    let copies = octaves.copies.map(|four| four.to_array()).concat();
     let cells = (NOISE_SIDE * NOISE_SIDE) as usize;
     let mut sums = vec![0.0; side * side];
     for k in which {
@@ -106,13 +112,13 @@ pub fn allowance(octaves: &OctaveUniforms, states: &[f32]) -> ([f32; 4], [f32; 4
 /// The paper's exponential is steepest at its foot; its softening `a^2 (1 + e) / (a + e)` at 1, with (1 + 2 e) / (1 + e).
 /// The grey has the amount here, the amount towards the sun, and the thickness.
 pub fn slopes(octaves: &OctaveUniforms) -> [f32; 4] {
-    let [exponent, darkening, relief, _] = octaves.shape;
-    let opacity = exponent.abs() * std::f32::consts::LN_2 * (1.0 + 2.0 * EDGE) / (1.0 + EDGE);
+    let opacity =
+        octaves.exponent.abs() * std::f32::consts::LN_2 * (1.0 + 2.0 * EDGE) / (1.0 + EDGE);
     [
         1.0,
         opacity,
         THIN * opacity,
-        2.0 * relief.abs() + darkening.abs(),
+        2.0 * octaves.relief.abs() + octaves.darkening.abs(),
     ]
 }
 
@@ -176,6 +182,8 @@ fn reads(side: usize, cells: f32, away: f32) -> Vec<([usize; 4], [f32; 4])> {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec4;
+
     use super::*;
 
     #[test]
@@ -210,10 +218,14 @@ mod tests {
     #[test]
     fn equal_noise_makes_an_even_map() {
         let octaves = OctaveUniforms {
-            map: [2.0, 64.0, 0.75, 0.0],
-            cells_a: [1.0, 0.5, 0.0, 0.0],
-            shape: [-2.0, 0.5, 1.0, 0.0],
-            sun: [0.1, 0.2, 0.0, 0.0],
+            count: 2.0,
+            resolution: 64.0,
+            edge_grey: 0.75,
+            copies: [Vec4::new(1.0, 0.5, 0.0, 0.0), Vec4::ZERO],
+            exponent: -2.0,
+            darkening: 0.5,
+            relief: 1.0,
+            sun_step: Vec2::new(0.1, 0.2),
             ..Default::default()
         };
         let amount = normal_share(0.5);

@@ -7,7 +7,6 @@ use welkin_runtime::frame::Uniforms;
 use crate::clouds::{self, Inputs, light, soften};
 use crate::dome;
 use crate::texture::smoothstep;
-use crate::vector::xyz;
 
 /// The four samples that the paper's shader starts from (lines 10-13).
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +24,6 @@ pub struct Samples {
 /// Lines 14 to 27: display-referred colour and opacity.
 pub fn shade(uniforms: &Uniforms, samples: Samples) -> (Vec3, f32) {
     let (packed, clouds) = (&uniforms.packed, &uniforms.clouds);
-    let [cut, stretch, density, _] = packed.shape;
     let Samples {
         photo,
         noise,
@@ -33,16 +31,16 @@ pub fn shade(uniforms: &Uniforms, samples: Samples) -> (Vec3, f32) {
         tint,
     } = samples;
     let amount = photo + noise * (1.0 - photo);
-    let mut alpha = (amount - cut) * stretch;
+    let mut alpha = (amount - packed.threshold) * packed.contrast;
     let mut grey = amount + detail * (1.0 - amount);
-    alpha *= detail + (1.0 - detail) * packed.levels[2];
+    alpha *= detail + (1.0 - detail) * packed.smoothness;
     if alpha > 0.0 {
-        let thick = density * alpha * 2.0;
+        let thick = packed.density * alpha * 2.0;
         grey += thick;
         alpha += thick;
     }
     let (grey, alpha) = (fold(grey).clamp(0.0, 1.0), alpha.clamp(0.0, 1.0));
-    (Vec3::splat(grey).lerp(xyz(clouds.tint), tint), alpha)
+    (Vec3::splat(grey).lerp(clouds.tint, tint), alpha)
 }
 
 /// Lines 22-23 with the kink rounded off.
@@ -60,26 +58,21 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
         let sample = inputs.clouds.sample(uv.to_array(), level + constant);
         sample[channel] + inputs.nudges[channel]
     };
-    let [photo, photo_x, photo_y, photo_level] = packed.photo;
-    let [detail, detail_x, detail_y, detail_level] = packed.detail;
-    let [cos, sin, noise_x, noise_y] = packed.noise;
-    let noise_level = packed.levels[0];
-    let turned = Vec2::new(cos, sin).rotate(hit.plane);
-    let photo_uv = hit.plane * photo + Vec2::new(photo_x, photo_y);
-    let detail_uv = hit.plane * detail + Vec2::new(detail_x, detail_y);
+    let turned = packed.noise_rotation.rotate(hit.plane);
+    let photo_uv = hit.plane * packed.photo_scale + packed.photo_offset;
+    let detail_uv = hit.plane * packed.detail_scale + packed.detail_offset;
     let samples = Samples {
-        photo: at(photo_uv, photo_level, 0),
-        noise: at(turned + Vec2::new(noise_x, noise_y), noise_level, 1),
-        detail: at(detail_uv, detail_level, 2),
+        photo: at(photo_uv, packed.photo_lod_bias, 0),
+        noise: at(turned + packed.noise_offset, packed.noise_lod_bias, 1),
+        detail: at(detail_uv, packed.detail_lod_bias, 2),
         tint: clouds::tint(clouds, inputs.clouds, direction),
     };
     let (display, alpha) = shade(inputs.uniforms, samples);
     let (mut radiance, mut alpha) = (light(clouds, display), soften(alpha, EDGE));
-    let upper = packed.shape[3];
-    if upper > 0.0 {
+    if packed.upper_layer > 0.0 {
         let veil = veil(inputs, hit.plane, level);
         let over = alpha + veil * (1.0 - alpha);
-        let white = light(clouds, Vec3::ONE.lerp(xyz(clouds.tint), samples.tint));
+        let white = light(clouds, Vec3::ONE.lerp(clouds.tint, samples.tint));
         radiance = white.lerp(radiance, alpha / over.max(1e-4));
         alpha = over;
     }
@@ -89,13 +82,12 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
 /// Opacity of the thin upper layer.
 fn veil(inputs: &Inputs, plane: Vec2, level: f32) -> f32 {
     let packed = &inputs.uniforms.packed;
-    let [x, y, offset_x, offset_y] = packed.upper;
-    let uv = plane * Vec2::new(x, y) + Vec2::new(offset_x, offset_y);
+    let uv = plane * packed.upper_scale + packed.upper_offset;
     let sample = inputs
         .clouds
-        .sample(uv.to_array(), level + packed.levels[1]);
+        .sample(uv.to_array(), level + packed.upper_lod_bias);
     let wisp = sample[1] + inputs.nudges[3];
-    packed.shape[3] * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, wisp)
+    packed.upper_layer * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, wisp)
 }
 
 /// The dome behind sprites: the upper layer alone.
@@ -104,7 +96,7 @@ pub fn upper_layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f
     let hit = dome::intersect(direction);
     let veil = veil(inputs, hit.plane, clouds::level(&hit, narrowing));
     let tint = clouds::tint(clouds, inputs.clouds, direction);
-    let white = light(clouds, Vec3::ONE.lerp(xyz(clouds.tint), tint));
+    let white = light(clouds, Vec3::ONE.lerp(clouds.tint, tint));
     (white, veil * clouds::clearness(clouds, direction))
 }
 
@@ -120,12 +112,15 @@ mod tests {
     fn lines_14_to_27_give_what_they_give_by_hand() {
         let uniforms = |cover: f32, density: f32| Uniforms {
             packed: PackedUniforms {
-                shape: [1.0 - cover, 1.0 / cover.max(0.05), density, 0.0],
-                levels: [0.0, 0.0, density, 0.0],
+                threshold: 1.0 - cover,
+                contrast: 1.0 / cover.max(0.05),
+                density,
+                smoothness: density,
                 ..Default::default()
             },
             clouds: CloudUniforms {
-                tint: [1.0, 0.5, 0.25, 1.0],
+                tint: Vec3::new(1.0, 0.5, 0.25),
+                sunset: 1.0,
                 ..Default::default()
             },
             ..Default::default()
@@ -192,15 +187,18 @@ mod tests {
                 tint: 0.0,
             };
             let (grey, _) = shade(&uniforms, samples);
-            let apart = light(&uniforms.clouds, grey) - xyz(uniforms.sky.overcast);
+            let apart = light(&uniforms.clouds, grey) - uniforms.sky.overcast;
             assert!(
                 apart.abs().max_element() < 1e-5,
                 "{time} {density}: {apart}"
             );
-            assert_eq!(uniforms.sky.overcast[3], 1.0);
+            assert_eq!(uniforms.sky.overcast_weight, 1.0);
         }
         let fair = facts.uniforms(&welkin_runtime::SkyParams::default(), &camera, 0.0, 0.0);
-        assert_eq!(fair.sky.overcast[3], 0.0, "the paper's sky below cover 0.8");
+        assert_eq!(
+            fair.sky.overcast_weight, 0.0,
+            "the paper's sky below cover 0.8"
+        );
     }
 
     #[test]

@@ -11,16 +11,16 @@ use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, PerezParams, PerezShape, SkyModel, SkyParams};
 
 use crate::pack;
-use crate::vector::xyz;
 
 /// Luminance and the published chromaticities x and y along a unit direction.
 pub fn colour(perez: &PerezUniforms, direction: Vec3) -> Vec3 {
-    let cosine = direction.dot(xyz(perez.sun)).clamp(-1.0, 1.0);
+    let cosine = direction.dot(perez.sun_direction).clamp(-1.0, 1.0);
     let exp2 = |v: Vec3| Vec3::from(v.to_array().map(libm::exp2f));
-    let gradation = 1.0 + xyz(perez.a) * exp2(xyz(perez.b) / direction.y.max(LEAST_COSINE));
-    let aureole = xyz(perez.c) * exp2(xyz(perez.d) * acos(cosine));
-    let indicatrix = xyz(perez.base) + aureole + xyz(perez.e) * (cosine * cosine);
-    xyz(perez.zenith) * gradation * indicatrix
+    let gradation =
+        1.0 + perez.a.truncate() * exp2(perez.b.truncate() / direction.y.max(LEAST_COSINE));
+    let aureole = perez.c.truncate() * exp2(perez.d.truncate() * acos(cosine));
+    let indicatrix = perez.base.truncate() + aureole + perez.e.truncate() * (cosine * cosine);
+    perez.zenith.truncate() * gradation * indicatrix
 }
 
 /// Linear BT.709 of a luminance with the published chromaticities x and y, before what is negative is cut off.
@@ -39,7 +39,7 @@ pub fn linear(colour: Vec3) -> Vec3 {
 
 /// Radiance of the clear sky along a unit direction, whose gradient alone is `gradient`.
 pub fn light(perez: &PerezUniforms, direction: Vec3, gradient: Vec3) -> Vec3 {
-    let share = perez.sun[3];
+    let share = perez.weight;
     if share == 0.0 {
         return gradient;
     }

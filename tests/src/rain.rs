@@ -10,20 +10,19 @@ use welkin_runtime::weather::rain::{
 };
 
 use crate::camera;
-use crate::vector::xyz;
 
 /// Colour and opacity of the haze along a ray.
 pub fn haze(rain: &RainUniforms, ray: Vec3) -> (Vec3, f32) {
     let far = libm::exp2f(-HAZE_FALL * ray.normalize().y.abs());
-    let opacity = rain.haze[3] * (HAZE_ABOVE + (1.0 - HAZE_ABOVE) * far);
-    (xyz(rain.haze), opacity)
+    let opacity = rain.haze_opacity * (HAZE_ABOVE + (1.0 - HAZE_ABOVE) * far);
+    (rain.haze, opacity)
 }
 
 /// What the streaks cover of each pixel, row by row from the top, if each is turned so far about the axis.
 pub fn streaks(view: &CameraUniforms, rain: &RainUniforms, turned_rad: f32) -> Vec<f32> {
-    let size = [view.right[3], view.up[3]].map(|side| side as usize);
+    let size = [view.width_px, view.height_px].map(|side| side as usize);
     let mut clear = vec![1.0; size[0] * size[1]];
-    let [first, count, ..] = rain.sight.map(|v| v as u32);
+    let [first, count] = [rain.first_column, rain.columns].map(|v| v as u32);
     for column in (first..first + count).map(|column| column % COLUMNS) {
         for slot in 0..DROPS_A_COLUMN {
             if let Some(streak) = Streak::new(rain, column, slot, turned_rad) {
@@ -47,23 +46,23 @@ impl Streak {
     fn new(rain: &RainUniforms, column: u32, slot: u32, turned_rad: f32) -> Option<Streak> {
         let number = column * DROPS_A_COLUMN + slot;
         let kind = usize::from(slot >= SLOTS[0]) + usize::from(slot >= SLOTS[0] + SLOTS[1]);
-        let [fraction, whole, least, range] = rain.places[kind];
-        let [half_width, half_length, opacity, _] = rain.sizes[kind];
-        let fallen = fraction + (hash(number) >> 16) as f32 / 65_536.0;
-        let times = (whole as u32 + fallen as u32) % 65_536;
+        let own = rain.drops[kind];
+        let [half_width, half_length] = own.half_size_m.to_array();
+        let fallen = own.fallen_fraction + (hash(number) >> 16) as f32 / 65_536.0;
+        let times = (own.fallen_count as u32 + fallen as u32) % 65_536;
         let bits = hash(times << 15 | number).to_le_bytes();
         let [aside, away, bright, rank] = bits.map(|byte| f32::from(byte) / 256.0);
-        if rank >= rain.right[3] {
+        if rank >= rain.amount {
             return None;
         }
-        let radius = least + range * away;
+        let radius = own.radius_m + own.radius_range_m * away;
         let height = HEIGHT_M as f32 * (0.5 - fallen.fract());
         let angle = TAU * ((column as f32 + aside) / COLUMNS as f32 - 0.5) + turned_rad;
         let (sine, cosine) = (libm::sinf(angle), libm::cosf(angle));
-        let [right, up, forward] = [rain.right, rain.up, rain.forward].map(xyz);
+        let [right, up, forward] = [rain.right, rain.up, rain.forward];
         // What a pixel covers there, across the ray; and along the streak, which is seen at a slant.
         let distance = libm::hypotf(radius, height);
-        let pixel = rain.up[3] * distance;
+        let pixel = rain.pixel_rad * distance;
         let drawn = [
             half_width.max(pixel),
             half_length.max(pixel * distance / radius),
@@ -74,7 +73,7 @@ impl Streak {
             middle: (right * sine + forward * cosine) * radius + up * height,
             half_width: (right * cosine - forward * sine) * drawn[0],
             half_length: up * drawn[1],
-            opacity: opacity * fainter * (FADE * to_end).min(1.0) * (0.4 + 0.6 * bright),
+            opacity: own.opacity * fainter * (FADE * to_end).min(1.0) * (0.4 + 0.6 * bright),
         })
     }
 
@@ -106,12 +105,12 @@ impl Streak {
     fn box_of_pixels(&self, view: &CameraUniforms) -> Option<[Vec2; 2]> {
         let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)]
             .map(|(x, y)| self.middle + self.half_width * x + self.half_length * y);
-        let ahead = corners.map(|corner| corner.dot(xyz(view.clip_w)) > 1e-3);
+        let ahead = corners.map(|corner| corner.dot(view.clip_w.truncate()) > 1e-3);
         if !ahead.contains(&true) {
             return None;
         }
         if ahead.contains(&false) {
-            return Some([Vec2::ZERO, Vec2::new(view.right[3], view.up[3])]);
+            return Some([Vec2::ZERO, Vec2::new(view.width_px, view.height_px)]);
         }
         let seen = corners.map(|corner| camera::pixel_of(view, corner));
         let [first, ..] = seen;

@@ -14,7 +14,6 @@ use welkin_runtime::weather::rays::{
 use crate::clouds::Inputs;
 use crate::methods;
 use crate::texture::{Texture, smoothstep};
-use crate::vector::xyz;
 
 /// The byte that is neither bright nor dark.
 const NEITHER: f32 = 128.0;
@@ -46,8 +45,8 @@ fn uv(place: Vec2) -> Vec2 {
 /// The unit direction that lies so many turns around the sun, so far away from it.
 pub fn direction(rays: &RayUniforms, [turns, share]: [f32; 2]) -> Vec3 {
     let angle_rad = 2.0 * libm::asinf(0.5 * share * REACH);
-    let around = xyz(rays.right) * libm::cosf(TAU * turns) + xyz(rays.up) * libm::sinf(TAU * turns);
-    xyz(rays.sun) * libm::cosf(angle_rad) + around * libm::sinf(angle_rad)
+    let around = rays.right * libm::cosf(TAU * turns) + rays.up * libm::sinf(TAU * turns);
+    rays.sun_direction * libm::cosf(angle_rad) + around * libm::sinf(angle_rad)
 }
 
 fn mask(method: Method, inputs: &Inputs, place: Vec2) -> [f32; 2] {
@@ -58,7 +57,7 @@ fn mask(method: Method, inputs: &Inputs, place: Vec2) -> [f32; 2] {
         return [0.0; 2];
     }
     let texel_rad = (TEXEL_RAD[0] * share).max(TEXEL_RAD[1]);
-    let (_, opacity) = methods::layer(method, inputs, direction, texel_rad * rays.dark[3]);
+    let (_, opacity) = methods::layer(method, inputs, direction, texel_rad * rays.pixels_per_rad);
     let weight = smoothstep(0.0, HORIZON, direction.y);
     [weight * (1.0 - opacity), weight]
 }
@@ -103,16 +102,16 @@ pub fn contrast(streaks: &Texture, place: [f32; 2]) -> f32 {
 /// Colour and opacity of the haze along a ray.
 pub fn haze(rays: &RayUniforms, streaks: &Texture, ray: Vec3) -> (Vec3, f32) {
     let direction = ray.normalize();
-    let away = direction - xyz(rays.sun);
+    let away = direction - rays.sun_direction;
     let chord = away.length();
     if chord >= REACH {
         return (Vec3::ZERO, 0.0);
     }
-    let turns = libm::atan2f(away.dot(xyz(rays.up)), away.dot(xyz(rays.right))) / TAU;
+    let turns = libm::atan2f(away.dot(rays.up), away.dot(rays.right)) / TAU;
     let half_row = 0.5 / SIZE[1] as f32;
     let row = (chord / REACH).clamp(half_row, 1.0 - half_row);
     let contrast = contrast(streaks, [turns, row]);
-    let glow = libm::exp2f(-rays.bright[3] * chord)
+    let glow = libm::exp2f(-rays.fall * chord)
         * smoothstep(0.0, CORE, chord)
         * (1.0 - smoothstep(0.5 * REACH, REACH, chord))
         * smoothstep(-GROUND, 0.0, direction.y);
@@ -121,5 +120,5 @@ pub fn haze(rays: &RayUniforms, streaks: &Texture, ray: Vec3) -> (Vec3, f32) {
     } else {
         rays.dark
     };
-    (xyz(colour), rays.sun[3] * glow * contrast.abs())
+    (colour, rays.opacity * glow * contrast.abs())
 }

@@ -10,7 +10,6 @@ use welkin_runtime::{Camera, Method, SkyParams};
 use crate::clouds::Inputs;
 use crate::skybox::{self, Skybox};
 use crate::texture::{Texture, smoothstep};
-use crate::vector::xyz;
 use crate::{
     camera, fbm_map, fbm_pack, flares, galaxy, lightning, lit_map, map, methods, octaves_map, rain,
     sky, stars, sun,
@@ -113,8 +112,7 @@ impl Frame<'_> {
     }
 
     fn packed_octaves(&self) -> Vec<Texture> {
-        let [x, y, ..] = self.uniforms.fbm.step;
-        fbm_pack::packed(self.twin.pack, [x, y])
+        fbm_pack::packed(self.twin.pack, self.uniforms.fbm.sun_step.to_array())
     }
 
     /// What a texel of level 0 of each layer of the map may be off by in each channel: at most, and on average, in bytes.
@@ -221,7 +219,7 @@ impl Frame<'_> {
 
     fn pixels(&self, colour: impl FnMut(Vec2) -> Vec3) -> Vec<Vec3> {
         let camera = &self.uniforms.camera;
-        let (width, height) = (camera.right[3] as u32, camera.up[3] as u32);
+        let (width, height) = (camera.width_px as u32, camera.height_px as u32);
         let centres = (0..height)
             .flat_map(|y| (0..width).map(move |x| Vec2::new(x as f32 + 0.5, y as f32 + 0.5)));
         centres.map(colour).collect()
@@ -256,12 +254,12 @@ impl Frame<'_> {
         let (twin, uniforms) = (self.twin, &self.uniforms);
         let direction = camera::ray_of(&uniforms.camera, pixel).normalize();
         let mut radiance = sky::radiance(uniforms, &twin.sky, direction);
-        if uniforms.sky.gradient[3] > 0.0 && direction.y > 0.0 {
+        if uniforms.sky.night > 0.0 && direction.y > 0.0 {
             let galaxy =
                 galaxy::brightness(&uniforms.galaxy, &twin.galaxy, &twin.clouds, direction);
             let stars =
                 stars::radiance(uniforms, twin.pack, direction, pixel, self.seconds, galaxy);
-            radiance += (xyz(uniforms.galaxy.light) * galaxy + stars)
+            radiance += (uniforms.galaxy.radiance * galaxy + stars)
                 * smoothstep(0.0, EXTINCTION, direction.y);
         }
         radiance += sun::radiance(uniforms, &twin.sun, direction);

@@ -4,8 +4,6 @@ use glam::{Vec2, Vec3};
 use welkin_runtime::sprites::ring::HALF_SIDE;
 use welkin_runtime::sprites::ring::{RingSet, RingUniforms};
 
-use crate::vector::xyz;
-
 /// Where a ray from the viewer leaves a ring's octagon: its side, and u and v on that side's picture. v is outside of 0..1 above
 /// and below.
 pub fn hit(ring: &RingUniforms, octagon: &RingSet, ray: Vec3) -> (usize, Vec2) {
@@ -16,19 +14,16 @@ pub fn hit(ring: &RingUniforms, octagon: &RingSet, ray: Vec3) -> (usize, Vec2) {
         side = (side + if along.0 > 0.0 { 1 } else { 7 }) % 8;
         along = reach(ring, octagon, ray, side);
     }
-    let [top, per_span, per_width, _] = octagon.span;
     let (along, up) = along;
-    (
-        side,
-        Vec2::new(0.5 + along * per_width, (top - up) * per_span),
-    )
+    let u = 0.5 + along * octagon.per_width;
+    (side, Vec2::new(u, (octagon.top - up) * octagon.per_height))
 }
 
 /// Where a ray meets a side: how far along it and how high, over the radius.
 fn reach(ring: &RingUniforms, octagon: &RingSet, ray: Vec3, side: usize) -> (f32, f32) {
     let (sin, cos) = libm::sincosf(side as f32 * std::f32::consts::FRAC_PI_4);
     let (normal, right) = (Vec3::new(sin, 0.0, -cos), Vec3::new(cos, 0.0, sin));
-    let (radius, middle) = (ring.walls[0], xyz(octagon.place));
+    let (radius, middle) = (ring.radius_m, octagon.centre);
     let reach = (radius + normal.dot(middle)) / ray.dot(normal);
     let place = (ray * reach - middle) / radius;
     (place.dot(right), place.y)

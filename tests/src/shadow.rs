@@ -6,7 +6,6 @@ use welkin_runtime::clouds::lit::shadow::SIDE;
 use crate::clouds::{self, Inputs};
 use crate::lit;
 use crate::texture::{Texture, smoothstep};
-use crate::vector::xyz;
 
 /// The share of direct light that comes through to the middle of each texel, row by row from the north.
 pub fn render(inputs: &Inputs) -> Vec<f32> {
@@ -19,12 +18,12 @@ pub fn render(inputs: &Inputs) -> Vec<f32> {
 pub fn through(inputs: &Inputs, texel: Vec2) -> f32 {
     let uniforms = inputs.uniforms;
     let seen = lit::clouds(inputs, |index| {
-        let [x, y, step, level] = uniforms.shadow.layers[index];
-        (Vec2::new(x, y) + step * texel, level)
+        let seen = uniforms.shadow.layers[index];
+        (seen.corner + seen.texel * texel, seen.lod)
     });
     let open = seen.iter().map(|cloud| 1.0 - cloud.opacity);
     let covered = 1.0 - open.product::<f32>();
-    1.0 - covered * clouds::clearness(&uniforms.clouds, xyz(uniforms.lit.towards))
+    1.0 - covered * clouds::clearness(&uniforms.clouds, uniforms.lit.light_direction)
 }
 
 /// What an application's shader finds at a place on the ground, in metres east and south of the world's origin.

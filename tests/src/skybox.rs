@@ -15,9 +15,8 @@ pub struct Skybox {
 
 /// What is seen along a unit direction, with `radiance` behind the picture.
 pub fn mix(uniforms: &SkyboxUniforms, skybox: &Skybox, radiance: Vec3, direction: Vec3) -> Vec3 {
-    let [strength, level, ..] = uniforms.mix;
-    let [red, green, blue, cover] = skybox.sample(direction, level);
-    radiance * (1.0 - cover * strength) + Vec3::new(red, green, blue) * strength
+    let [red, green, blue, cover] = skybox.sample(direction, uniforms.lod);
+    radiance * (1.0 - cover * uniforms.weight) + Vec3::new(red, green, blue) * uniforms.weight
 }
 
 impl Skybox {

@@ -7,10 +7,9 @@ use welkin_runtime::sprites::locks::{LOCK, NEAR};
 use welkin_runtime::sprites::outline::Outline;
 use welkin_runtime::sprites::pipelines::SpriteBlock;
 use welkin_runtime::sprites::ring::SpriteView;
-use welkin_runtime::sprites::{RIM_OPAQUE, formation};
+use welkin_runtime::sprites::{RIM_OPAQUE, SpriteUniforms, formation};
 
 use crate::texture::{Texture, smoothstep};
-use crate::vector::xyz;
 use crate::{clouds, sky};
 
 /// What sprites are computed from.
@@ -64,7 +63,7 @@ pub fn placed(
     amount: f32,
 ) -> Option<Placed> {
     let own = &inputs.uniforms.sprites;
-    let middle = xyz(block.origin) + instance.centre_m();
+    let middle = block.origin + instance.centre_m();
     let distance = middle.length().max(1e-3);
     let [half_width, half_height] = instance.half_size_m();
     let radius = half_width.max(half_height);
@@ -81,25 +80,24 @@ pub fn placed(
     } else {
         -facing.dot(middle)
     };
-    let [_, _, change, billboards] = own.fade;
-    let near = ((billboards - distance) * change).clamp(0.0, 1.0);
+    let near = ((own.billboards_m - distance) * own.change_per_m).clamp(0.0, 1.0);
     let opacity = (1.0 + (meets.max(0.0) - 1.0) * locked)
         * smoothstep(0.0, NEAR, before / radius)
-        * (RIM_OPAQUE * rim(own.fade, distance)).min(1.0)
+        * (RIM_OPAQUE * rim(own, distance)).min(1.0)
         * if instance.is_billboard() {
             1.0 - near
         } else {
             near
         }
-        * block.origin[3]
-        * own.air[2];
+        * block.opacity
+        * own.opacity;
     if opacity * amount <= 0.0 {
         return None;
     }
     let [right, up] = axes(instance, facing);
     let axes = [right * half_width, up * half_height];
     let outline = &inputs.outlines[usize::from(instance.names[0])];
-    let outline = match block.slot[1] {
+    let outline = match block.vertices_log2 {
         2 => around(outline).to_vec(),
         _ => outline.to_vec(),
     };
@@ -109,7 +107,7 @@ pub fn placed(
         let corner = corner(inputs, instance, middle, offset, share, opacity, amount);
         (Vec2::new(x, y), corner)
     });
-    let texels_a_pixel = inputs.view.viewer[2] * inputs.view.viewer[1] * distance
+    let texels_a_pixel = inputs.view.cell_texels * inputs.view.pixel_rad * distance
         / (2.0 * libm::sqrtf(half_width * half_height));
     let fine = libm::log2f(texels_a_pixel.max(1e-6)).max(0.0);
     let cell = instance.names[0];
@@ -118,7 +116,7 @@ pub fn placed(
         axes,
         corners: corners.collect(),
         cell: Vec2::new(f32::from(cell % 4), f32::from(cell / 4)),
-        level: if block.slot[1] == 2 {
+        level: if block.vertices_log2 == 2 {
             libm::roundf(fine)
         } else {
             fine
@@ -155,36 +153,36 @@ fn corner(
     let level = level(instance.low).lerp(level(instance.high), up);
     let [low, high] = instance.heights();
     let share = low + (high - low) * up;
-    let ambient = level.truncate() * xyz(own.ambient) * (1.0 - own.air[3] * (1.0 - share));
+    let ambient = level.truncate() * own.ambient * (1.0 - own.dark_base * (1.0 - share));
     let from_group = instance.from_group_m() + offset;
-    let towards = from_group.dot(xyz(own.sun)) / from_group.length().max(1.0);
-    let (least, most) = (own.colour[3], own.ambient[3]);
-    let sun = xyz(own.colour) * (least + (most - least) * (0.5 + 0.5 * towards));
+    let towards = from_group.dot(own.light_direction) / from_group.length().max(1.0);
+    let share = own.least + (own.most - own.least) * (0.5 + 0.5 * towards);
+    let sun = own.light * share;
     let uniforms = inputs.uniforms;
     let tint = clouds::tint(&uniforms.clouds, inputs.clouds, direction);
-    let light = ambient + sun * Vec3::ONE.lerp(xyz(uniforms.clouds.tint), tint);
+    let light = ambient + sun * Vec3::ONE.lerp(uniforms.clouds.tint, tint);
     let [from_cloud, centre] = [offset, Vec3::ZERO]
         .map(|offset| (instance.from_cloud_m() + offset).length() / instance.cloud_radius_m());
-    let rim = rim(own.fade, middle.length());
-    let clear = clearness(own.air, inputs.view.viewer[0], place) * rim;
-    let flash = (place - xyz(own.flash_place)) * own.flash_place[3];
-    let flash = xyz(own.flash) * libm::exp2f(-flash.length_squared());
+    let rim = rim(own, middle.length());
+    let clear = clearness(own, inputs.view.height_m, place) * rim;
+    let flash = (place - own.flash_position) * own.flash_per_m;
+    let flash = own.flash * libm::exp2f(-flash.length_squared());
     let behind = sky::radiance(uniforms, inputs.sky, direction);
     Corner {
         light: (light + flash) * clear + behind * (1.0 - clear),
-        relief: light * clear * own.sun[3],
+        relief: light * clear * own.relief,
         opacity: opacity * formation::opacity(amount, from_cloud, centre) * level.w,
     }
 }
 
 /// What the rim of sight leaves of a sprite at a distance.
-fn rim([per_width, end, ..]: [f32; 4], distance: f32) -> f32 {
-    ((end - distance) * per_width).clamp(0.0, 1.0)
+fn rim(own: &SpriteUniforms, distance: f32) -> f32 {
+    ((own.distance_m - distance) * own.rim_per_m).clamp(0.0, 1.0)
 }
 
 /// What the air leaves of light from a place: the integral of exp(-height / scale) along the way, in closed form.
-pub fn clearness(air: [f32; 4], viewer_height_m: f32, place: Vec3) -> f32 {
-    let [extinction, per_scale, ..] = air;
+pub fn clearness(own: &SpriteUniforms, viewer_height_m: f32, place: Vec3) -> f32 {
+    let per_scale = own.air_height_per_m;
     let rise = f64::from(place.y * per_scale);
     let mean = if rise.abs() < 1e-6 {
         1.0
@@ -192,7 +190,7 @@ pub fn clearness(air: [f32; 4], viewer_height_m: f32, place: Vec3) -> f32 {
         -libm::expm1(-rise) / rise
     };
     let at_viewer = libm::exp(f64::from(-viewer_height_m.max(0.0) * per_scale));
-    let depth = f64::from(extinction) * at_viewer * mean * f64::from(place.length());
+    let depth = f64::from(own.extinction_per_m) * at_viewer * mean * f64::from(place.length());
     libm::exp(-depth) as f32
 }
 

@@ -7,7 +7,6 @@ use welkin_runtime::clear_sky::stars::{COLD, GALAXY_BOOST, WARM};
 use welkin_runtime::frame::Uniforms;
 
 use crate::camera;
-use crate::vector::xyz;
 
 /// Radiance of the stars around `direction`, at the pixel with centre `pixel`.
 pub fn radiance(
@@ -18,26 +17,25 @@ pub fn radiance(
     seconds: f64,
     galaxy: f32,
 ) -> Vec3 {
-    let [_, side, _, brightness] = uniforms.stars.field;
-    let [even, guided, reach, _] = uniforms.stars.spread;
+    let own = &uniforms.stars;
     let dome = Vec2::from(mapping::direction_to_dome(direction.to_array()));
-    let cells = if guided == 1.0 {
+    let cells = if own.is_guided == 1.0 {
         // Every cell that the tent may reach, with or without a guide: a square around the pixel.
-        let reach = Vec2::splat(reach * 2.0);
-        let [low, high] = [dome - reach, dome + reach].map(|p| cell_of(p, side));
+        let reach = Vec2::splat(own.reach_rad * 2.0);
+        let [low, high] = [dome - reach, dome + reach].map(|p| cell_of(p, own.resolution));
         (low.y..=high.y)
             .flat_map(|y| (low.x..=high.x).map(move |x| IVec2::new(x, y)))
             .collect()
     } else {
-        vec![cell_of(dome, side)]
+        vec![cell_of(dome, own.resolution)]
     };
     let light: Vec3 = cells
         .into_iter()
         .map(|cell| light(uniforms, pack, cell, pixel, seconds))
         .sum();
-    let narrowing = direction.dot(xyz(uniforms.camera.clip_w));
-    let spread = 1.0 + even * (narrowing.powi(-3) - 1.0);
-    light * (brightness * spread * (1.0 + GALAXY_BOOST * galaxy))
+    let narrowing = direction.dot(uniforms.camera.clip_w.truncate());
+    let spread = 1.0 + own.evenness * (narrowing.powi(-3) - 1.0);
+    light * (own.brightness * spread * (1.0 + GALAXY_BOOST * galaxy))
 }
 
 /// The cell of a level with `side` texels a side that a point of the dome lies in.
@@ -49,7 +47,7 @@ fn cell_of(dome: Vec2, side: f32) -> IVec2 {
 
 /// What the star of a cell gives to a pixel.
 fn light(uniforms: &Uniforms, pack: &Pack, cell: IVec2, pixel: Vec2, seconds: f64) -> Vec3 {
-    let [level, side, ..] = uniforms.stars.field;
+    let (level, side) = (uniforms.stars.level, uniforms.stars.resolution);
     let centre = (cell.as_vec2() + 0.5) / side * STAR_TILE_SIDE - Vec2::from(STAR_TILE_START);
     let place = mapping::dome_to_star(centre.to_array());
     let texel = place

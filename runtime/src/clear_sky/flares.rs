@@ -14,34 +14,53 @@
 //! Six squares, drawn after the sky and over the scene, in the target's own encoding: what is behind a hill is for the
 //! application to know ([`crate::SkyParams::flare`] 0 switches it off). Five looks at the clouds a vertex.
 
-use bytemuck::{Pod, Zeroable};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use welkin_pack::mapping::FlareCell;
 
 use crate::clear_sky::light::{Light, luminance};
 use crate::geometry::camera::CameraUniforms;
 use crate::geometry::math::smoothstep;
 use crate::geometry::part::Part;
+use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
 
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[],
+    structs: &[FlareSquare::WGSL, FlareUniforms::WGSL],
     wgsl: include_str!("flares.wgsl"),
 };
 
-/// The lens flare.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct FlareUniforms {
-    /// x: strength of the whole flare; y: radius, as a sine, in which clouds hide the sun.
-    pub light: [f32; 4],
-    /// xy: middle, zw: half sides, in clip space.
-    pub places: [[f32; 4]; 6],
-    /// rgb: colour; w: opacity.
-    pub colours: [[f32; 4]; 6],
-    /// xy: corner, z: side of the atlas cell; w: level of detail.
-    pub cells: [[f32; 4]; 6],
+uniforms! {
+    /// A square of the flare.
+    FlareSquare {
+        /// Its middle in clip space.
+        position: Vec2,
+        /// Half its sides in clip space.
+        half_size: Vec2,
+        /// Its colour.
+        colour: Vec3,
+        /// Its opacity.
+        opacity: f32,
+        /// Corner of its cell of the atlas, as uv.
+        cell: Vec2,
+        /// Side of the cell.
+        cell_size: f32,
+        /// Level of detail.
+        lod: f32,
+    }
+
+    /// The lens flare.
+    FlareUniforms {
+        /// Strength of the whole flare.
+        strength: f32,
+        /// Radius, as a sine, in which clouds hide the sun.
+        sun_radius: f32,
+        /// Nothing.
+        _pad: Vec2,
+        /// The sun's first.
+        squares: [FlareSquare; COUNT as usize],
+    }
 }
 
 /// Squares: the sun's and the flares'.
@@ -82,14 +101,15 @@ pub fn uniforms(
     camera: &CameraUniforms,
     texels: u32,
 ) -> FlareUniforms {
-    let (width, height) = (camera.right[3], camera.up[3]);
+    let (width, height) = (camera.width_px, camera.height_px);
     let sun = sun_on_screen(light.sun_direction, camera);
     let in_view = sun.map_or(0.0, |sun| {
         1.0 - smoothstep(1.0 - EDGE, 1.0, sun.abs().max_element())
     });
     let risen = smoothstep(RISE[0], RISE[1], light.sun_direction.y);
     let mut flares = FlareUniforms {
-        light: [params.flare * in_view * risen, HIDING, 0.0, 0.0],
+        strength: params.flare * in_view * risen,
+        sun_radius: HIDING,
         ..Default::default()
     };
     let hue = light.sunlight / luminance(light.sunlight).max(1e-3);
@@ -98,22 +118,25 @@ pub fn uniforms(
         squares[0] = STARBURST;
     }
     for (k, (cell, half, colour, opacity)) in squares.into_iter().enumerate() {
-        let place = sun.unwrap_or_default() * RATIOS[k];
-        flares.places[k] = [place.x, place.y, half * height / width, half];
-        let colour = (Vec3::from(colour) * hue).min(Vec3::ONE);
-        flares.colours[k] = [colour.x, colour.y, colour.z, opacity];
         let [[u, v], [right, _]] = cell.uv_rect();
         let side = right - u;
         let texels_a_pixel = side * texels as f32 / (half * height).max(1.0);
-        let level = texels_a_pixel.log2().clamp(0.0, LAST_LEVEL);
-        flares.cells[k] = [u, v, side, level];
+        flares.squares[k] = FlareSquare {
+            position: sun.unwrap_or_default() * RATIOS[k],
+            half_size: Vec2::new(half * height / width, half),
+            colour: (Vec3::from(colour) * hue).min(Vec3::ONE),
+            opacity,
+            cell: Vec2::new(u, v),
+            cell_size: side,
+            lod: texels_a_pixel.log2().clamp(0.0, LAST_LEVEL),
+        };
     }
     flares
 }
 
 /// Where the sun is in clip space, if it is before the camera.
 fn sun_on_screen(sun: Vec3, camera: &CameraUniforms) -> Option<Vec2> {
-    let along = |row: [f32; 4]| sun.dot(Vec3::new(row[0], row[1], row[2]));
+    let along = |row: Vec4| sun.dot(row.truncate());
     let w = along(camera.clip_w);
     (w > 1e-4).then(|| Vec2::new(along(camera.clip_x), along(camera.clip_y)) / w)
 }

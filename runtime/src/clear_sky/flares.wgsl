@@ -1,10 +1,4 @@
 // The lens flare: discs and rings on the line from the sun through the middle of the screen. CPU part: flares.rs.
-struct FlareUniforms {
-    light: vec4f,              // x: strength of the whole flare; y: radius, as a sine, in which clouds hide the sun
-    places: array<vec4f, 6>,   // xy: middle, zw: half sides, in clip space
-    colours: array<vec4f, 6>,  // rgb: colour; w: opacity
-    cells: array<vec4f, 6>,    // xy: corner, z: side of the atlas cell; w: level of detail
-}
 
 struct FlareVaryings {
     @builtin(position) position: vec4f,
@@ -15,9 +9,9 @@ struct FlareVaryings {
 
 // What the clouds leave of the sun: its middle and four points around it.
 fn flare_clearness() -> f32 {
-    let sun = uniforms.sky.sun.xyz;
-    let right = normalize(uniforms.camera.right.xyz) * uniforms.flares.light.y;
-    let up = normalize(uniforms.camera.up.xyz) * uniforms.flares.light.y;
+    let sun = uniforms.sky.sun_direction;
+    let right = normalize(uniforms.camera.right) * uniforms.flares.sun_radius;
+    let up = normalize(uniforms.camera.up) * uniforms.flares.sun_radius;
     var covered = flare_cover(sun) * 2.0;
     covered += flare_cover(sun + right) + flare_cover(sun - right) + flare_cover(sun + up) + flare_cover(sun - up);
     return 1.0 - covered / 6.0;
@@ -31,15 +25,13 @@ fn flare_cover(towards: vec3f) -> f32 {
 
 @vertex
 fn vs_flare(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> FlareVaryings {
-    let flares = uniforms.flares;
+    let square = uniforms.flares.squares[instance];
     let corner = vec2f(f32(vertex & 1u), f32(vertex >> 1u));
-    let place = flares.places[instance];
-    let cell = flares.cells[instance];
-    var colour = flares.colours[instance];
-    colour.a *= flares.light.x * flare_clearness();
+    let opacity = square.opacity * (uniforms.flares.strength * flare_clearness());
     // The first row of the atlas is up.
-    let position = place.xy + place.zw * (corner * vec2f(2.0, -2.0) - vec2f(1.0, -1.0));
-    return FlareVaryings(vec4f(position, FAR_DEPTH, 1.0), cell.xy + cell.z * corner, colour, cell.w);
+    let position = square.position + square.half_size * (corner * vec2f(2.0, -2.0) - vec2f(1.0, -1.0));
+    let uv = square.cell + square.cell_size * corner;
+    return FlareVaryings(vec4f(position, FAR_DEPTH, 1.0), uv, vec4f(square.colour, opacity), square.lod);
 }
 
 @fragment

@@ -8,29 +8,40 @@
 //! # Practice
 //! One bilinear and one trilinear texture read a pixel at night; the latter is bilinear too where its level is nearly whole.
 
-use bytemuck::{Pod, Zeroable};
+use std::f32::consts::SQRT_2;
+
 use glam::Vec3;
 
-use crate::geometry::math::vec4;
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[
         ("EXTINCTION", Value::F32(EXTINCTION)),
         ("GALAXY_GRAIN_SCALE", Value::F32(GRAIN_SCALE)),
+        ("GALAXY_UV_SCALE", Value::F32(UV_SCALE)),
     ],
+    structs: &[GalaxyUniforms::WGSL],
     wgsl: include_str!("galaxy.wgsl"),
 };
 
-/// Galaxy.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct GalaxyUniforms {
-    /// rgb: radiance of the brightest place, times the share of the night sky; w: level of detail of the grain.
-    pub light: [f32; 4],
-    /// x: the grain without noise and detail; y, z: what noise and detail add where they are 1. Its mean is 1.
-    pub grain: [f32; 4],
+uniforms! {
+    /// Galaxy. The mean of its grain is 1.
+    GalaxyUniforms {
+        /// Radiance of the brightest place, times the weight of the night sky.
+        radiance: Vec3,
+        /// Level of detail of the grain.
+        grain_lod: f32,
+        /// The grain without noise and detail.
+        plain: f32,
+        /// What noise adds to the grain where it is 1.
+        noise: f32,
+        /// What detail adds to the grain where it is 1.
+        detail: f32,
+        /// Nothing.
+        _pad: f32,
+    }
 }
 
 /// Stars and galaxy fade over this sine of the elevation above the horizon: the air takes their light.
@@ -41,6 +52,9 @@ const LIGHT: Vec3 = Vec3::new(0.085, 0.098, 0.135);
 
 /// Tiles of the cloud texture a radian of the dome: its waves are 0.5 to 15 degrees long then.
 pub const GRAIN_SCALE: f32 = 1.9;
+
+/// From the plane of the dome, a disc with the radius [`SQRT_2`], to halves of the texture: see [`welkin_pack::mapping::direction_to_galaxy_uv`].
+pub const UV_SCALE: f32 = 0.25 * SQRT_2;
 
 /// A level of the grain that is this near to a whole one is taken for it: the eye sees no difference, and a GPU reads one level, not two.
 const NEARLY_WHOLE: f32 = 0.125;
@@ -56,8 +70,12 @@ pub fn uniforms(night: f32, means: [f32; 2], texels: u32, pixel_rad: f32) -> Gal
     let mean = plain + noise * means[0] + detail * means[1];
     let [plain, noise, detail] = GRAIN.map(|part| part / mean);
     GalaxyUniforms {
-        light: vec4(LIGHT * night, whole_if_near(level)),
-        grain: [plain, noise, detail, 0.0],
+        radiance: LIGHT * night,
+        grain_lod: whole_if_near(level),
+        plain,
+        noise,
+        detail,
+        ..Default::default()
     }
 }
 
@@ -77,10 +95,13 @@ mod tests {
     #[test]
     fn the_grain_is_1_on_average_whatever_the_means_of_the_clouds() {
         for means in [[0.26, 0.5], [0.45, 0.9], [0.15, 0.1], [0.0, 0.0]] {
-            let [plain, noise, detail, _] = uniforms(1.0, means, 512, 1e-3).grain;
-            let mean = plain + noise * means[0] + detail * means[1];
+            let galaxy = uniforms(1.0, means, 512, 1e-3);
+            let mean = galaxy.plain + galaxy.noise * means[0] + galaxy.detail * means[1];
             assert!((mean - 1.0).abs() < 1e-6, "{means:?}: {mean}");
-            assert!(plain > 0.0, "the galaxy is nowhere black by its grain");
+            assert!(
+                galaxy.plain > 0.0,
+                "the galaxy is nowhere black by its grain"
+            );
         }
     }
 
@@ -89,7 +110,7 @@ mod tests {
         let texel_rad = 1.0 / (GRAIN_SCALE * 512.0);
         for step in -200..800 {
             let level = step as f32 / 100.0;
-            let found = uniforms(1.0, [0.26, 0.5], 512, texel_rad * level.exp2()).light[3];
+            let found = uniforms(1.0, [0.26, 0.5], 512, texel_rad * level.exp2()).grain_lod;
             let expected = level.max(0.0);
             assert!((found - expected).abs() <= NEARLY_WHOLE, "{level}: {found}");
             assert!(

@@ -13,13 +13,13 @@
 //! # Practice
 //! One bilinear texture read, an exponential and a square root a pixel; in twilight one exponential more.
 
-use bytemuck::{Pod, Zeroable};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use welkin_pack::Image;
 
 use crate::clear_sky::light::Light;
-use crate::geometry::math::{smoothstep, vec4};
+use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 
 /// Its part of the shader.
 pub const PART: Part = Part {
@@ -27,25 +27,40 @@ pub const PART: Part = Part {
         ("GROUND_FLOOR", Value::F32(GROUND_FLOOR)),
         ("GROUND_FALL", Value::F32(GROUND_FALL)),
     ],
+    structs: &[SkyUniforms::WGSL],
     wgsl: include_str!("gradient.wgsl"),
 };
 
-/// Clear sky.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct SkyUniforms {
-    /// x: u of the time; y, z: `v = y + z * sqrt(sin elevation)`; w: share of the night sky.
-    pub gradient: [f32; 4],
-    /// xyz: unit direction towards the sun.
-    pub sun: [f32; 4],
-    /// rgb: radiance of the wide lobe towards the sun; w: its sharpness.
-    pub wide: [f32; 4],
-    /// rgb: radiance of the narrow lobe, the twelfth power of the wide one.
-    pub narrow: [f32; 4],
-    /// rgb: radiance of the twilight band on the horizon; w: how fast it fades upwards.
-    pub band: [f32; 4],
-    /// rgb: radiance of a shut sky; w: how far the sky is shut.
-    pub overcast: [f32; 4],
+uniforms! {
+    /// Clear sky.
+    SkyUniforms {
+        /// Unit direction towards the sun.
+        sun_direction: Vec3,
+        /// Weight of the night sky.
+        night: f32,
+        /// Radiance of the wide lobe towards the sun.
+        wide: Vec3,
+        /// How fast the wide lobe falls with the angle to the sun.
+        wide_sharpness: f32,
+        /// Radiance of the narrow lobe, the twelfth power of the wide one.
+        narrow: Vec3,
+        /// u of the time in the day gradient.
+        time_u: f32,
+        /// Radiance of the twilight band on the horizon.
+        band: Vec3,
+        /// How fast the band fades upwards.
+        band_sharpness: f32,
+        /// Radiance of an overcast sky.
+        overcast: Vec3,
+        /// How far the sky is overcast.
+        overcast_weight: f32,
+        /// v of the horizon in the day gradient.
+        horizon_v: f32,
+        /// What the root of the sine of the elevation is multiplied by to be added to it.
+        elevation_v: f32,
+        /// Nothing.
+        _pad: Vec2,
+    }
 }
 
 /// Radiance far below the horizon, as a share of that on the horizon.
@@ -68,28 +83,35 @@ const BAND: Vec3 = Vec3::new(0.55, 0.21, 0.05);
 
 /// The clear sky's share of the uniforms.
 ///
-/// `night` is the share of the night sky that is drawn, `overcast` the radiance of a shut sky and how far it is shut.
+/// `night` is the share of the night sky that is drawn, `overcast` the radiance of a shut sky, `closing` how far it is shut.
 pub fn uniforms(
     light: &Light,
     sky: &Image,
     time: f32,
     night: f32,
-    overcast: [f32; 4],
+    overcast: Vec3,
+    closing: f32,
 ) -> SkyUniforms {
     let (width, height) = (sky.width as f32, sky.height as f32);
-    // Texel coordinates to texture coordinates: half a texel in, so that rows never wrap.
-    let u = (time - time.floor()) + 0.5 / width;
     let sun_up = light.sun_direction.y;
     let lobes = light.sunlight * smoothstep(-0.10, 0.05, sun_up);
     let low = LOW_SUN * low_sun(light);
     let twilight = smoothstep(-0.24, 0.0, sun_up) * (1.0 - smoothstep(0.0, 0.30, sun_up));
     SkyUniforms {
-        gradient: [u, 0.5 / height, (height - 1.0) / height, night],
-        sun: vec4(light.sun_direction, 0.0),
-        wide: vec4(lobes * (WIDE_STRENGTH + low), WIDE_SHARPNESS),
-        narrow: vec4(lobes * (NARROW_STRENGTH + low), 0.0),
-        band: vec4(BAND * twilight, BAND_SHARPNESS),
+        sun_direction: light.sun_direction,
+        night,
+        wide: lobes * (WIDE_STRENGTH + low),
+        wide_sharpness: WIDE_SHARPNESS,
+        narrow: lobes * (NARROW_STRENGTH + low),
+        // Texel coordinates to texture coordinates: half a texel in, so that rows never wrap.
+        time_u: (time - time.floor()) + 0.5 / width,
+        band: BAND * twilight,
+        band_sharpness: BAND_SHARPNESS,
         overcast,
+        overcast_weight: closing,
+        horizon_v: 0.5 / height,
+        elevation_v: (height - 1.0) / height,
+        ..Default::default()
     }
 }
 

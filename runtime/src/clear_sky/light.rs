@@ -21,6 +21,7 @@ use crate::geometry::part::{Part, Value};
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[("LUMINANCE", Value::Vec3(LUMINANCE))],
+    structs: &[],
     wgsl: "",
 };
 

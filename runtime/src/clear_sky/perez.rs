@@ -40,13 +40,13 @@
 
 use std::f32::consts::{FRAC_PI_2, LOG2_E, PI};
 
-use bytemuck::{Pod, Zeroable};
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 use crate::clear_sky::cie;
 use crate::clear_sky::light::{Light, luminance};
-use crate::geometry::math::{smoothstep, vec4};
+use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 use crate::params::{PerezParams, PerezShape, SkyModel};
 
 /// Its part of the shader.
@@ -60,29 +60,32 @@ pub const PART: Part = Part {
         ("PEREZ_RGB_Y", Value::Vec3(RGB_OF_XYZ[1])),
         ("PEREZ_RGB_Z", Value::Vec3(RGB_OF_XYZ[2])),
     ],
+    structs: &[PerezUniforms::WGSL],
     wgsl: include_str!("perez.wgsl"),
 };
 
-/// The clear sky of Perez and others. Each of a to e, base and zenith holds luminance, chromaticity x and chromaticity y.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct PerezUniforms {
-    /// xyz: unit direction towards the sun, or to the horizon above it; w: share of this model.
-    pub sun: [f32; 4],
-    /// xyz: how the horizon darkens (above 0) or brightens.
-    pub a: [f32; 4],
-    /// xyz: how fast, times log2 of e.
-    pub b: [f32; 4],
-    /// xyz: strength of the aureole.
-    pub c: [f32; 4],
-    /// xyz: how fast it falls, times log2 of e.
-    pub d: [f32; 4],
-    /// xyz: light scattered back.
-    pub e: [f32; 4],
-    /// xyz: what aureole and backscatter are added to.
-    pub base: [f32; 4],
-    /// xyz: the value at the zenith, over f(0, Z).
-    pub zenith: [f32; 4],
+uniforms! {
+    /// The clear sky of Perez and others. Each of a to e, base and zenith holds luminance, chromaticity x and chromaticity y, and nothing in w.
+    PerezUniforms {
+        /// Unit direction towards the sun, or to the horizon above it.
+        sun_direction: Vec3,
+        /// Weight of this model, 0 where the gradient draws alone.
+        weight: f32,
+        /// How the horizon darkens (above 0) or brightens.
+        a: Vec4,
+        /// How fast, times log2 of e.
+        b: Vec4,
+        /// Strength of the aureole.
+        c: Vec4,
+        /// How fast it falls, times log2 of e.
+        d: Vec4,
+        /// Light scattered back.
+        e: Vec4,
+        /// What aureole and backscatter are added to.
+        base: Vec4,
+        /// The value at the zenith, over f(0, Z).
+        zenith: Vec4,
+    }
 }
 
 /// Sine of the depression of the sun at which nothing of this model is left: 6 degrees, the end of civil twilight.
@@ -282,17 +285,17 @@ pub fn uniforms(params: &PerezParams, model: SkyModel, light: &Light) -> PerezUn
         let over = |i: usize| zenith[i] / chromaticities[i].at(1.0, sun.y);
         (chromaticities, [over(0), over(1)])
     };
-    let each = |number: fn(&Distribution) -> f32| {
-        vec4(Vec3::new(number(&lum), number(&x), number(&y)), 0.0)
-    };
+    let each =
+        |number: fn(&Distribution) -> f32| Vec4::new(number(&lum), number(&x), number(&y), 0.0);
     PerezUniforms {
-        sun: vec4(sun, share),
+        sun_direction: sun,
+        weight: share,
         a: each(|f| f.a),
         b: each(|f| f.b * LOG2_E),
         c: each(|f| f.c),
         d: each(|f| f.d * LOG2_E),
         e: each(|f| f.e),
         base: each(|f| f.base),
-        zenith: vec4(Vec3::new(level, zenith[0], zenith[1]), 0.0),
+        zenith: Vec4::new(level, zenith[0], zenith[1], 0.0),
     }
 }

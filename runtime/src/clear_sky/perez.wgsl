@@ -1,15 +1,4 @@
 // The clear sky of Perez and others: luminance and both chromaticities. Theory and CPU part: perez.rs.
-// Each of a to e, base and zenith holds, in x, y, z: luminance, chromaticity x, chromaticity y.
-struct PerezUniforms {
-    sun: vec4f,    // xyz: unit direction towards the sun, or to the horizon above it; w: share of this model
-    a: vec4f,      // xyz: how the horizon darkens (above 0) or brightens
-    b: vec4f,      // xyz: how fast, times log2 of e
-    c: vec4f,      // xyz: strength of the aureole
-    d: vec4f,      // xyz: how fast it falls, times log2 of e
-    e: vec4f,      // xyz: light scattered back
-    base: vec4f,   // xyz: what aureole and backscatter are added to
-    zenith: vec4f, // xyz: the value at the zenith, over f(0, Z)
-}
 
 // M. Abramowitz, I. A. Stegun, "Handbook of Mathematical Functions", 1964, eq. 4.4.45: off by 7e-5 at most.
 fn perez_acos(cosine: f32) -> f32 {
@@ -29,16 +18,16 @@ fn perez_rgb(sky: vec3f) -> vec3f {
 // The clear sky along a unit direction: Perez's by day, the gradient's by night.
 fn perez_light(direction: vec3f) -> vec3f {
     let perez = uniforms.perez;
-    if perez.sun.w == 0.0 {
+    if perez.weight == 0.0 {
         return gradient_light(direction);
     }
-    let cosine = clamp(dot(direction, perez.sun.xyz), -1.0, 1.0);
+    let cosine = clamp(dot(direction, perez.sun_direction), -1.0, 1.0);
     let gradation = 1.0 + perez.a.xyz * exp2(perez.b.xyz / max(direction.y, PEREZ_LEAST_COSINE));
     let aureole = perez.c.xyz * exp2(perez.d.xyz * perez_acos(cosine));
     let indicatrix = perez.base.xyz + aureole + perez.e.xyz * (cosine * cosine);
     let light = perez_rgb(perez.zenith.xyz * gradation * indicatrix);
-    if perez.sun.w == 1.0 {
+    if perez.weight == 1.0 {
         return light;
     }
-    return mix(gradient_light(direction), light, perez.sun.w);
+    return mix(gradient_light(direction), light, perez.weight);
 }

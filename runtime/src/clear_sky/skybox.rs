@@ -10,23 +10,30 @@
 //! One trilinear cube texture read a pixel, compiled out of skies whose pack has no skybox. Clear sky, night and
 //! sun lie behind it; where its cover is less than 1, or its strength, they show.
 
-use bytemuck::{Pod, Zeroable};
+use glam::Vec2;
 
 use crate::geometry::part::Part;
+use crate::geometry::uniforms::uniforms;
 
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[],
+    structs: &[SkyboxUniforms::WGSL],
     wgsl: include_str!("skybox.wgsl"),
 };
 
-/// The skybox.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct SkyboxUniforms {
-    /// x: share of the skybox where its cover is 1; y: level of detail.
-    pub mix: [f32; 4],
+uniforms! {
+    /// The skybox.
+    SkyboxUniforms {
+        /// Weight of the skybox where its cover is 1.
+        weight: f32,
+        /// Level of detail.
+        lod: f32,
+        /// Nothing.
+        _pad: Vec2,
+    }
 }
+
 /// Side of a texel of a face of one texel in radians, were all texels of a cube of equal solid angle:
 /// `sqrt(4 pi / 6)`. In the middle of a face they are 1.4 times as wide, in its corners 0.7 times.
 const FACE_RAD: f32 = 1.447_202_5;
@@ -38,7 +45,9 @@ pub fn uniforms(strength: f32, face_texels: u32, levels: usize, pixel_rad: f32) 
     let level = (pixel_rad / texel_rad).log2();
     let last = levels.saturating_sub(1) as f32;
     SkyboxUniforms {
-        mix: [strength, level.clamp(0.0, last), 0.0, 0.0],
+        weight: strength,
+        lod: level.clamp(0.0, last),
+        ..Default::default()
     }
 }
 
@@ -47,7 +56,7 @@ mod tests {
     use super::*;
 
     fn level(face_texels: u32, levels: usize, pixel_rad: f32) -> f32 {
-        uniforms(1.0, face_texels, levels, pixel_rad).mix[1]
+        uniforms(1.0, face_texels, levels, pixel_rad).lod
     }
 
     #[test]
@@ -74,6 +83,6 @@ mod tests {
 
     #[test]
     fn the_strength_is_handed_on() {
-        assert_eq!(uniforms(0.25, 256, 9, 0.001).mix[0], 0.25);
+        assert_eq!(uniforms(0.25, 256, 9, 0.001).weight, 0.25);
     }
 }

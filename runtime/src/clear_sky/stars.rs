@@ -24,12 +24,12 @@
 //! One texture read a pixel at night, the rest only where there is a star (about one pixel in 40). Where a texel is too
 //! narrow, about a dozen.
 
-use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use welkin_pack::StarTexel;
 use welkin_pack::mapping::{STAR_TILE_SIDE, STAR_TILE_START};
 
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 
 /// Its part of the shader.
 pub const PART: Part = Part {
@@ -41,18 +41,30 @@ pub const PART: Part = Part {
         ("STAR_WARM", Value::Vec3(WARM)),
         ("STAR_COLD", Value::Vec3(COLD)),
     ],
+    structs: &[StarUniforms::WGSL],
     wgsl: include_str!("stars.wgsl"),
 };
 
-/// Stars.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct StarUniforms {
-    /// x: level of the records; y: texels a side of that level; z: place in the flicker's period, 0..1; w: brightness.
-    pub field: [f32; 4],
-    /// x: 1 if light is spread over the pixel's own solid angle, 0 if over that of one in the middle; y: 1 if the level above that of the
-    /// records tells where they are, 0 if a pixel reads one texel alone; z: how far a tent reaches, in radians; w: not used.
-    pub spread: [f32; 4],
+uniforms! {
+    /// Stars.
+    StarUniforms {
+        /// Level of the records.
+        level: f32,
+        /// Texels a side of that level.
+        resolution: f32,
+        /// Fraction of the flicker's period that has passed.
+        period: f32,
+        /// Radiance of a star of intensity 1.
+        brightness: f32,
+        /// 1 if light is spread over the pixel's own solid angle, 0 if over that of one in the middle.
+        evenness: f32,
+        /// 1 if the level above that of the records tells where they are, 0 if a pixel reads one texel alone.
+        is_guided: f32,
+        /// How far a tent reaches, in radians.
+        reach_rad: f32,
+        /// Nothing.
+        _pad: f32,
+    }
 }
 
 /// How much brighter a star is in the brightest part of the galaxy, less one: "stars inside the galaxies
@@ -101,18 +113,14 @@ pub fn uniforms(
     let brightness = BRIGHTNESS * night * unit * texel_sr / pixel_sr;
     let number = |is: bool| f32::from(u8::from(is));
     StarUniforms {
-        field: [
-            records as f32,
-            (texels >> records).max(1) as f32,
-            period(seconds),
-            brightness,
-        ],
-        spread: [
-            number(even),
-            number(guided),
-            pixel_rad[0].hypot(pixel_rad[1]),
-            0.0,
-        ],
+        level: records as f32,
+        resolution: (texels >> records).max(1) as f32,
+        period: period(seconds),
+        brightness,
+        evenness: number(even),
+        is_guided: number(guided),
+        reach_rad: pixel_rad[0].hypot(pixel_rad[1]),
+        ..Default::default()
     }
 }
 
@@ -176,10 +184,11 @@ mod tests {
     fn light_does_not_depend_on_the_level() {
         // A step of level 1 stands for three of level 0.
         let units = [1.0, 3.0, 3.0];
-        let at = |pixel_rad: f32| uniforms(256, &units, [pixel_rad; 2], 1.0, false, 0.0).field;
+        let at = |pixel_rad: f32| uniforms(256, &units, [pixel_rad; 2], 1.0, false, 0.0);
         let (fine, coarse) = (at(1e-3), at(8e-3));
-        assert_eq!((fine[0], coarse[0]), (0.0, 1.0));
-        let per_step = |field: [f32; 4], pixel_rad: f32| field[3] * pixel_rad * pixel_rad;
+        assert_eq!((fine.level, coarse.level), (0.0, 1.0));
+        let per_step =
+            |stars: StarUniforms, pixel_rad: f32| stars.brightness * pixel_rad * pixel_rad;
         let ratio = per_step(coarse, 8e-3) / per_step(fine, 1e-3);
         assert!((ratio - 3.0).abs() < 1e-5);
     }

@@ -1,9 +1,4 @@
 // Stars: one texel is one star, drawn as a point of its own. Theory and CPU part: stars.rs.
-struct StarUniforms {
-    field: vec4f, // x: level of the records; y: texels a side of that level; z: place in the period, 0..1; w: brightness
-    spread: vec4f, // x: 1 if light is spread over the pixel's own solid angle, 0 if over that of one in the middle; y: 1 if the level above
-                   // that of the records tells where they are; z: how far a tent reaches, in radians
-}
 
 // The light of a star at this frame's time, from its four numbers.
 fn star_intensity(star: vec4f, period: f32) -> f32 {
@@ -25,7 +20,7 @@ fn star_tile_swaps(tile: vec2i) -> bool {
 // The solid angle of a pixel in the middle of the screen over that of one in a direction, if stars are spread so.
 fn star_spread(direction: vec3f) -> f32 {
     let narrowing = pixel_narrowing(direction);
-    return mix(1.0, 1.0 / (narrowing * narrowing * narrowing), uniforms.stars.spread.x);
+    return mix(1.0, 1.0 / (narrowing * narrowing * narrowing), uniforms.stars.evenness);
 }
 
 // The texel of a cell: cells of a level cover the plane of the tiles, `side` of them a tile.
@@ -38,23 +33,23 @@ fn star_texel(cell: vec2i, side: f32) -> vec2i {
 // What the star of a cell gives to the pixel with centre `pixel`, by its tent. A tent one pixel wide each way: over the pixels of a row
 // its weights add up to 1 wherever the star is between them, so a star that moves never changes its total light.
 fn star_light(cell: vec2i, pixel: vec2f) -> vec3f {
-    let field = uniforms.stars.field;
-    let star = textureLoad(stars_texture, star_texel(cell, field.y), i32(field.x));
+    let stars = uniforms.stars;
+    let star = textureLoad(stars_texture, star_texel(cell, stars.resolution), i32(stars.level));
     if star.r == 0.0 {
         return vec3f(0.0);
     }
-    let centre = (vec2f(cell) + 0.5) * (STAR_TILE_SIDE / field.y) - STAR_START;
+    let centre = (vec2f(cell) + 0.5) * (STAR_TILE_SIDE / stars.resolution) - STAR_START;
     let offset = abs(pixel_of(dome_to_direction(centre)) - pixel);
     let tent = max(1.0 - offset, vec2f(0.0));
-    return mix(STAR_WARM, STAR_COLD, star.a) * (star_intensity(star, field.z) * tent.x * tent.y);
+    return mix(STAR_WARM, STAR_COLD, star.a) * (star_intensity(star, stars.period) * tent.x * tent.y);
 }
 
 // The light of all stars whose tents may reach the pixel: a cell of the level above is empty if the four below it are.
 fn stars_around(dome: vec2f, direction: vec3f, pixel: vec2f) -> vec3f {
-    let side = 0.5 * uniforms.stars.field.y;
-    let level = i32(uniforms.stars.field.x) + 1;
+    let side = 0.5 * uniforms.stars.resolution;
+    let level = i32(uniforms.stars.level) + 1;
     // The projection widens angles across the direction to the zenith by the most.
-    let reach = uniforms.stars.spread.z * inverseSqrt(0.5 + 0.5 * max(direction.y, 0.0));
+    let reach = uniforms.stars.reach_rad * inverseSqrt(0.5 + 0.5 * max(direction.y, 0.0));
     let low = vec2i(floor((dome + STAR_START - reach) * (side / STAR_TILE_SIDE)));
     let high = vec2i(floor((dome + STAR_START + reach) * (side / STAR_TILE_SIDE)));
     var light = vec3f(0.0);
@@ -73,12 +68,12 @@ fn stars_around(dome: vec2f, direction: vec3f, pixel: vec2f) -> vec3f {
 
 // Radiance of the stars around `dome`, which is in `direction`, at the pixel with centre `pixel`.
 fn star_radiance(dome: vec2f, direction: vec3f, pixel: vec2f, galaxy: f32) -> vec3f {
-    let field = uniforms.stars.field;
+    let stars = uniforms.stars;
     var light: vec3f;
-    if uniforms.stars.spread.y > 0.5 {
+    if stars.is_guided > 0.5 {
         light = stars_around(dome, direction, pixel);
     } else {
-        light = star_light(vec2i(floor((dome + STAR_START) * (field.y / STAR_TILE_SIDE))), pixel);
+        light = star_light(vec2i(floor((dome + STAR_START) * (stars.resolution / STAR_TILE_SIDE))), pixel);
     }
-    return light * (field.w * star_spread(direction) * (1.0 + STAR_GALAXY_BOOST * galaxy));
+    return light * (stars.brightness * star_spread(direction) * (1.0 + STAR_GALAXY_BOOST * galaxy));
 }

@@ -11,35 +11,46 @@
 //! # Practice
 //! One or two texture reads, only inside the square; none at night.
 
-use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use crate::clear_sky::gradient;
 use crate::clear_sky::light::Light;
 use crate::geometry::camera::Rays;
-use crate::geometry::math::{smoothstep, vec4};
+use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[("SUN_HORIZON", Value::F32(HORIZON))],
+    structs: &[SunUniforms::WGSL],
     wgsl: include_str!("sun.wgsl"),
 };
 
-/// The sun's square.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct SunUniforms {
-    /// xyz: the screen's right about the sun, over the glow's half side; w: glow's half side over the disc's.
-    pub right: [f32; 4],
-    /// xyz: the same upwards; w: 1 if there is a sun to draw.
-    pub up: [f32; 4],
-    /// rgb: radiance of the disc; w: level of the texture for it.
-    pub disc: [f32; 4],
-    /// rgb: radiance of the glow; w: level of the texture for it.
-    pub glow: [f32; 4],
-    /// xyz: unit direction towards what is drawn, the sun or the moon.
-    pub towards: [f32; 4],
+uniforms! {
+    /// The sun's square.
+    SunUniforms {
+        /// The screen's right about the sun, over the glow's half side.
+        right: Vec3,
+        /// The glow's half side over the disc's.
+        glow_to_disc: f32,
+        /// The same as right, upwards.
+        up: Vec3,
+        /// 1 if there is a sun to draw, else 0.
+        is_shown: f32,
+        /// Radiance of the disc.
+        disc: Vec3,
+        /// Level of the texture for the disc.
+        disc_lod: f32,
+        /// Radiance of the glow.
+        glow: Vec3,
+        /// Level of the texture for the glow.
+        glow_lod: f32,
+        /// Unit direction towards what is drawn, the sun or the moon.
+        direction: Vec3,
+        /// Nothing.
+        _pad: f32,
+    }
 }
 
 /// Radius of the disc as it is drawn, in radians. The real sun's is 0.00465; pictures of skies show it
@@ -73,7 +84,7 @@ pub fn uniforms(
             .clamp(0.0, levels.saturating_sub(1) as f32)
     };
     let (right, up) = facing_axes(light.sun_direction, rays);
-    let shows = if shown && light.sun_direction.y > -GLOW_HALF_SIDE {
+    let is_shown = if shown && light.sun_direction.y > -GLOW_HALF_SIDE {
         1.0
     } else {
         0.0
@@ -81,14 +92,16 @@ pub fn uniforms(
     let colour = light.sunlight;
     let set = smoothstep(-0.16, 0.0, light.sun_direction.y);
     SunUniforms {
-        right: vec4(right / GLOW_HALF_SIDE, GLOW_HALF_SIDE / disc_half_side),
-        up: vec4(up / GLOW_HALF_SIDE, shows),
-        disc: vec4(colour * DISC_RADIANCE, level(disc_half_side)),
-        glow: vec4(
-            colour * (GLOW_RADIANCE * set * (1.0 + gradient::low_sun(light))),
-            level(GLOW_HALF_SIDE),
-        ),
-        towards: vec4(light.sun_direction, 0.0),
+        right: right / GLOW_HALF_SIDE,
+        glow_to_disc: GLOW_HALF_SIDE / disc_half_side,
+        up: up / GLOW_HALF_SIDE,
+        is_shown,
+        disc: colour * DISC_RADIANCE,
+        disc_lod: level(disc_half_side),
+        glow: colour * (GLOW_RADIANCE * set * (1.0 + gradient::low_sun(light))),
+        glow_lod: level(GLOW_HALF_SIDE),
+        direction: light.sun_direction,
+        ..Default::default()
     }
 }
 

@@ -12,32 +12,43 @@
 //! # Practice
 //! No read of its own by day; one bilinear with sunset above 0.
 
-use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::clear_sky::light::{Light, luminance};
-use crate::geometry::math::{smoothstep, vec4};
+use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
 
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[("CLOUD_CORE", Value::F32(CORE))],
+    structs: &[CloudUniforms::WGSL],
     wgsl: include_str!("shared.wgsl"),
 };
 
-/// What the clouds of every method share.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct CloudUniforms {
-    /// xy: unit vector to the sun's azimuth (east, south); zw: `v = z + w * place`.
-    pub gradient: [f32; 4],
-    /// rgb: light of the sun on clouds; w: 1 / sine of the elevation at which clouds are out of the haze.
-    pub sunlight: [f32; 4],
-    /// rgb: light of the sky on clouds.
-    pub ambient: [f32; 4],
-    /// rgb: the sunset colour, display-referred; w: sunset.
-    pub tint: [f32; 4],
+uniforms! {
+    /// What the clouds of every method share.
+    CloudUniforms {
+        /// Unit vector to the sun's azimuth (east, south).
+        sun_azimuth: Vec2,
+        /// Where the sunset gradient begins, opposite the sun, as v of the texture.
+        gradient_start: f32,
+        /// How far it goes from there.
+        gradient_span: f32,
+        /// Light of the sun on clouds.
+        sunlight: Vec3,
+        /// 1 / sine of the elevation at which clouds are out of the haze.
+        haze_scale: f32,
+        /// Light of the sky on clouds.
+        ambient: Vec3,
+        /// How far the sunset tints clouds.
+        sunset: f32,
+        /// The sunset colour, display-referred.
+        tint: Vec3,
+        /// Nothing.
+        _pad: f32,
+    }
 }
 
 /// What the darkest core of a cloud, the paper's black, still scatters: display-referred.
@@ -97,26 +108,25 @@ impl CloudView {
 /// The share of the uniforms that no method changes. `params` are in range.
 pub fn uniforms(params: &SkyParams, light: &Light, texels: u32) -> CloudUniforms {
     let closing = closing(params.cover);
-    let sun = sun_azimuth(light.sun_direction);
     let half_texel = 0.5 / texels as f32;
     CloudUniforms {
+        sun_azimuth: sun_azimuth(light.sun_direction),
         // Half a texel is kept from the ends: the texture repeats, and its ends are far apart.
-        gradient: [sun.x, sun.y, half_texel, 1.0 - 2.0 * half_texel],
-        sunlight: vec4(
-            light.sunlight * (1.0 - SHADE * closing),
-            1.0 / (HAZE[0] + (HAZE[1] - HAZE[0]) * closing),
-        ),
-        ambient: vec4(ambient(light.skylight), 0.0),
-        tint: vec4(SUNSET_TINT, params.sunset),
+        gradient_start: half_texel,
+        gradient_span: 1.0 - 2.0 * half_texel,
+        sunlight: light.sunlight * (1.0 - SHADE * closing),
+        haze_scale: 1.0 / (HAZE[0] + (HAZE[1] - HAZE[0]) * closing),
+        ambient: ambient(light.skylight),
+        sunset: params.sunset,
+        tint: SUNSET_TINT,
+        ..Default::default()
     }
 }
 
 /// Radiance of a cloud of this grey, by the same line as the shader's.
 pub(crate) fn radiance(clouds: &CloudUniforms, grey: f32) -> Vec3 {
-    let [sunlight, ambient] =
-        [clouds.sunlight, clouds.ambient].map(|l| Vec3::new(l[0], l[1], l[2]));
     let bright = CORE + (1.0 - CORE) * grey;
-    bright * (bright * sunlight + ambient)
+    bright * (bright * clouds.sunlight + clouds.ambient)
 }
 
 /// How far the sky is shut at a cover, 0..1: an overcast has no holes.
@@ -152,9 +162,8 @@ pub(crate) fn before_roughening(rough: f32, k: f32) -> f32 {
 }
 
 /// A texture coordinate in 0..1: reduced in 64 bits, since seconds have no end.
-pub(crate) fn offset(place: DVec2) -> [f32; 2] {
-    let fract = place - place.floor();
-    [fract.x as f32, fract.y as f32]
+pub(crate) fn offset(place: DVec2) -> Vec2 {
+    (place - place.floor()).as_vec2()
 }
 
 /// Unit vector (east, south) to the sun's azimuth; any one where the sun is at the zenith.
@@ -187,7 +196,7 @@ mod tests {
                 cover,
                 ..SkyParams::default()
             };
-            uniforms(&params, &light, 512).sunlight[0]
+            uniforms(&params, &light, 512).sunlight.x
         };
         assert_eq!((closing(0.8), closing(1.0)), (0.0, 1.0));
         assert_eq!((sunlight(0.3), sunlight(0.8)), (1.0, 1.0));

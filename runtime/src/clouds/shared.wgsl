@@ -1,23 +1,17 @@
-// What the clouds of every method share: light, sunset tint, haze. CPU part: clouds.rs.
-struct CloudUniforms {
-    gradient: vec4f, // xy: unit vector to the sun's azimuth (east, south); zw: v = z + w * place
-    sunlight: vec4f, // rgb: light of the sun on clouds; w: 1 / sine of the elevation at which clouds are out of the haze
-    ambient: vec4f,  // rgb: light of the sky on clouds
-    tint: vec4f,     // rgb: the sunset colour, display-referred; w: sunset
-}
+// What the clouds of every method share: light, sunset tint, haze. CPU part: shared.rs.
 
 // Display-referred grey, as the papers compute it, to radiance: sunlight reaches the bright parts,
 // the light of the sky the dark ones too. The darkest cores still scatter some of both.
 fn cloud_light(grey: vec3f) -> vec3f {
     let clouds = uniforms.clouds;
     let bright = CLOUD_CORE + (1.0 - CLOUD_CORE) * grey;
-    return bright * (bright * clouds.sunlight.rgb + clouds.ambient.rgb);
+    return bright * (bright * clouds.sunlight + clouds.ambient);
 }
 
 // Display-referred colour of a grey under the sunset tint. Unlike the paper's lines 26-27, which go over to one
 // flat colour, shading shows through it.
 fn cloud_tinted(grey: f32, tint: f32) -> vec3f {
-    return grey * mix(vec3f(1.0), uniforms.clouds.tint.rgb, tint);
+    return grey * mix(vec3f(1.0), uniforms.clouds.tint, tint);
 }
 
 // Opacity with its foot softened: where clouds thin out, the papers' opacity has a kink that shows their grain.
@@ -28,17 +22,17 @@ fn cloud_soften(alpha: f32, edge: f32) -> f32 {
 // How far the sunset tints clouds in a direction.
 fn cloud_tint(direction: vec3f) -> f32 {
     let clouds = uniforms.clouds;
-    if clouds.tint.w == 0.0 {
+    if clouds.sunset == 0.0 {
         return 0.0;
     }
-    let place = 0.5 + 0.5 * dot(direction.xz, clouds.gradient.xy);
-    let uv = vec2f(0.5, clouds.gradient.z + clouds.gradient.w * place);
-    return clouds.tint.w * textureSampleLevel(clouds_texture, repeat_sampler, uv, 0.0).a;
+    let place = 0.5 + 0.5 * dot(direction.xz, clouds.sun_azimuth);
+    let uv = vec2f(0.5, clouds.gradient_start + clouds.gradient_span * place);
+    return clouds.sunset * textureSampleLevel(clouds_texture, repeat_sampler, uv, 0.0).a;
 }
 
 // What the haze of the horizon leaves of a cloud.
 fn cloud_clearness(direction: vec3f) -> f32 {
-    let t = clamp(direction.y * uniforms.clouds.sunlight.w, 0.0, 1.0);
+    let t = clamp(direction.y * uniforms.clouds.haze_scale, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
 }
 

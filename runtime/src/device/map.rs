@@ -10,6 +10,7 @@ use crate::geometry::part::Part;
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[],
+    structs: &[],
     wgsl: include_str!("map.wgsl"),
 };
 

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use super::config::Output;
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::Struct;
 
 /// What is compiled into a shader, beside what its pipelines choose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,16 +18,20 @@ pub struct Build {
     pub skybox: bool,
 }
 
-/// A shader of these parts. Each call is a function that parts ask for, and what gives it.
+/// A shader of these structs and parts. Each call is a function that parts ask for, and what gives it.
 pub fn compose<'a>(
     build: Build,
     own: &[(&str, Value)],
+    structs: impl Iterator<Item = &'a Struct>,
     parts: impl Iterator<Item = &'a Part>,
     calls: &[(&str, String)],
 ) -> String {
     let mut text = String::from("// Generated from the constants in Rust.\n");
     for (name, value) in constants(build).iter().chain(own) {
         value.write(name, &mut text);
+    }
+    for shared in structs {
+        shared.write(&mut text);
     }
     for part in parts {
         part.write(&mut text);

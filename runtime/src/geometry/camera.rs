@@ -4,34 +4,40 @@
 //! of near layers against those of far ones. A pixel's direction is linear in
 //! its place on the screen before it is normalised: `forward + x right + y up`, with x, y in -1..1.
 
-use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Quat, Vec2, Vec3};
+use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 
-use crate::geometry::math::vec4;
 use crate::geometry::part::Part;
+use crate::geometry::uniforms::uniforms;
 
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[],
+    structs: &[CameraUniforms::WGSL],
     wgsl: include_str!("camera.wgsl"),
 };
 
-/// Camera: see camera.wgsl for what each component holds.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct CameraUniforms {
-    /// xyz: from the middle of the screen to its right side; w: width in pixels.
-    pub right: [f32; 4],
-    /// xyz: from the middle of the screen to its upper side; w: height in pixels.
-    pub up: [f32; 4],
-    /// xyz: to the middle of the screen.
-    pub forward: [f32; 4],
-    /// xyz: dot with a direction gives its clip x.
-    pub clip_x: [f32; 4],
-    /// xyz: the same for y.
-    pub clip_y: [f32; 4],
-    /// xyz: the same for w.
-    pub clip_w: [f32; 4],
+uniforms! {
+    /// Camera.
+    CameraUniforms {
+        /// From the middle of the screen to its right side.
+        right: Vec3,
+        /// Width of the screen in pixels.
+        width_px: f32,
+        /// From the middle of the screen to its upper side.
+        up: Vec3,
+        /// Height of the screen in pixels.
+        height_px: f32,
+        /// To the middle of the screen.
+        forward: Vec3,
+        /// Nothing.
+        _pad: f32,
+        /// Row of a matrix: dot of its xyz with a direction gives its clip x.
+        clip_x: Vec4,
+        /// The same for y.
+        clip_y: Vec4,
+        /// The same for w.
+        clip_w: Vec4,
+    }
 }
 
 /// A perspective camera. The world is right-handed: +Y up, north -Z, east +X.
@@ -175,12 +181,15 @@ pub fn uniforms(camera: &Camera) -> CameraUniforms {
         .inverse()
         .transpose();
     CameraUniforms {
-        right: vec4(rays.right, viewport.x),
-        up: vec4(rays.up, viewport.y),
-        forward: vec4(rays.forward, 0.0),
-        clip_x: vec4(inverse.x_axis, 0.0),
-        clip_y: vec4(inverse.y_axis, 0.0),
-        clip_w: vec4(inverse.z_axis, 0.0),
+        right: rays.right,
+        width_px: viewport.x,
+        up: rays.up,
+        height_px: viewport.y,
+        forward: rays.forward,
+        clip_x: inverse.x_axis.extend(0.0),
+        clip_y: inverse.y_axis.extend(0.0),
+        clip_w: inverse.z_axis.extend(0.0),
+        ..Default::default()
     }
 }
 

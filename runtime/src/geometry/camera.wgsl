@@ -1,12 +1,4 @@
 // Where a pixel looks, and where a direction is on the screen. CPU part: camera.rs.
-struct CameraUniforms {
-    right: vec4f,   // xyz: from the middle of the screen to its right side; w: width in pixels
-    up: vec4f,      // xyz: from the middle of the screen to its upper side; w: height in pixels
-    forward: vec4f, // xyz: to the middle of the screen
-    clip_x: vec4f,  // xyz: dot with a direction gives its clip x
-    clip_y: vec4f,  // xyz: the same for y
-    clip_w: vec4f,  // xyz: the same for w
-}
 
 struct Varyings {
     @builtin(position) position: vec4f,
@@ -19,7 +11,7 @@ struct Varyings {
 fn vs_screen(@builtin(vertex_index) index: u32) -> Varyings {
     let ndc = vec2f(f32((index << 1u) & 2u), f32(index & 2u)) * 2.0 - 1.0;
     let camera = uniforms.camera;
-    let ray = camera.forward.xyz + camera.right.xyz * ndc.x + camera.up.xyz * ndc.y;
+    let ray = camera.forward + camera.right * ndc.x + camera.up * ndc.y;
     return Varyings(vec4f(ndc, FAR_DEPTH, 1.0), ray);
 }
 
@@ -42,5 +34,5 @@ fn pixel_of(direction: vec3f) -> vec2f {
     let camera = uniforms.camera;
     let w = dot(direction, camera.clip_w.xyz);
     let ndc = vec2f(dot(direction, camera.clip_x.xyz), dot(direction, camera.clip_y.xyz)) / w;
-    return (ndc * vec2f(0.5, -0.5) + 0.5) * vec2f(camera.right.w, camera.up.w);
+    return (ndc * vec2f(0.5, -0.5) + 0.5) * vec2f(camera.width_px, camera.height_px);
 }

@@ -22,6 +22,7 @@ use crate::geometry::part::{Part, Value};
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[("CLOUD_SPHERE_RADIUS", Value::F32(CLOUD_SPHERE_RADIUS))],
+    structs: &[],
     wgsl: include_str!("dome.wgsl"),
 };
 

@@ -28,11 +28,6 @@ pub(crate) fn mix(value: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// Three numbers and a fourth.
-pub(crate) fn vec4(xyz: glam::Vec3, w: f32) -> [f32; 4] {
-    xyz.extend(w).to_array()
-}
-
 /// Seconds that are not finite are 0.
 pub(crate) fn finite(seconds: f64) -> f64 {
     if seconds.is_finite() { seconds } else { 0.0 }

@@ -4,3 +4,4 @@ pub mod camera;
 pub mod dome;
 pub mod math;
 pub mod part;
+pub mod uniforms;

@@ -1,4 +1,4 @@
-//! A part of the shader: a WGSL file, and the constants that Rust and WGSL share.
+//! A part of the shader: a WGSL file, and the constants and structs that Rust and WGSL share.
 //!
 //! Every pass owns its uniforms, its constants and its WGSL, and hands over one `PART`; `parts.rs` lists them.
 
@@ -6,11 +6,15 @@ use std::fmt::Write;
 
 use glam::Vec3;
 
+use super::uniforms::Struct;
+
 /// A part of the shader.
 #[derive(Clone, Copy, Debug)]
 pub struct Part {
     /// Constants that the text uses.
     pub constants: &'static [(&'static str, Value)],
+    /// Structs that the text uses.
+    pub structs: &'static [Struct],
     /// The text.
     pub wgsl: &'static str,
 }
@@ -37,7 +41,7 @@ pub enum Value {
 }
 
 impl Part {
-    /// Appends constants and text.
+    /// Appends constants and text; structs come before all parts.
     pub fn write(&self, text: &mut String) {
         text.push('\n');
         for &(name, value) in self.constants {

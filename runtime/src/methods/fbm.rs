@@ -65,8 +65,7 @@ impl MapPass for map::Pass {
         shared: &wgpu::BindGroup,
         frame: &MapFrame<'_>,
     ) {
-        let [x, y, ..] = frame.uniforms.fbm.step;
-        self.draw(encoder, shared, [x, y]);
+        self.draw(encoder, shared, frame.uniforms.fbm.sun_step);
     }
 
     fn group(&self) -> &wgpu::BindGroup {

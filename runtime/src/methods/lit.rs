@@ -58,7 +58,7 @@ impl CloudMethod for Lit {
     }
 
     fn sunlight(&self, uniforms: &Uniforms) -> Vec3 {
-        Vec3::from_slice(&uniforms.lit.light)
+        uniforms.lit.light
     }
 
     fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
@@ -94,7 +94,7 @@ impl MapPass for Pass {
         shared: &wgpu::BindGroup,
         frame: &MapFrame<'_>,
     ) {
-        let count = frame.uniforms.lit.dome[2] as usize;
+        let count = frame.uniforms.lit.count as usize;
         self.map.draw(encoder, shared, count);
         if let Some(shadow) = self
             .shadow

@@ -73,7 +73,7 @@ pub(crate) trait CloudMethod: Sync {
 
     /// Light of the sun on its clouds.
     fn sunlight(&self, uniforms: &Uniforms) -> Vec3 {
-        Vec3::from_slice(&uniforms.clouds.sunlight)
+        uniforms.clouds.sunlight
     }
 
     /// How overcast the sky behind is, 0..1.

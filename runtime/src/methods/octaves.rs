@@ -40,8 +40,8 @@ impl CloudMethod for Octaves {
     }
 
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
-        let [east, south, ..] = uniforms.clouds.gradient;
-        uniforms.octaves = octaves::uniforms(frame.params, &frame.view, [east, south]);
+        let azimuth = uniforms.clouds.sun_azimuth;
+        uniforms.octaves = octaves::uniforms(frame.params, &frame.view, azimuth);
     }
 
     fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {

@@ -36,7 +36,10 @@ impl Blocks {
         }
         let block = SpriteBlock {
             origin: draw.origin,
-            slot: [draw.first, draw.vertices.ilog2(), 0, 0],
+            opacity: draw.opacity,
+            first: draw.first,
+            vertices_log2: draw.vertices.ilog2(),
+            ..Default::default()
         };
         self.bytes.extend_from_slice(bytemuck::bytes_of(&block));
         self.bytes.resize(offset + STRIDE as usize, 0);

@@ -1,6 +1,6 @@
 //! What a frame of sprites is computed from: where the viewer is, and the views of screen and ring.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use super::SpriteUniforms;
 use super::ring::{SpriteView, Station};
@@ -46,14 +46,14 @@ pub fn station(frame: &Frame<'_>, viewer_m: DVec3, sight_m: f32, heights_m: [f64
         radius_m: f64::from(params.sprites.ring_radius_m),
         distance_m: f64::from(sight_m),
         heights_m,
-        sun: Vec3::from_slice(&own.sun),
+        sun: own.light_direction,
         look: [
-            own.colour[0],
-            own.colour[2],
-            own.ambient[0],
-            own.air[2],
-            own.air[3],
-            own.flash[2],
+            own.light.x,
+            own.light.z,
+            own.ambient.x,
+            own.opacity,
+            own.dark_base,
+            own.flash.z,
             params.cover,
             params.sprites.formation,
         ],
@@ -74,16 +74,16 @@ pub fn screen_view(
         (Some(depth), None) if depth.reversed => [0.0, NEAR_M],
         (Some(_), None) => [1.0, -NEAR_M],
     };
-    let [x, y, z, _] = screen.clip_w;
-    let height = frame.camera.position_m().y;
     let [pixel_width, pixel_height] = frame.camera.pixel_rad();
-    let pixel = pixel_width.max(pixel_height);
     SpriteView {
         clip_x: screen.clip_x,
         clip_y: screen.clip_y,
-        clip_z: [slope * x, slope * y, slope * z, start],
+        clip_z: (slope * screen.clip_w.truncate()).extend(start),
         clip_w: screen.clip_w,
-        viewer: [height, pixel, cell_texels(sheet), 0.0],
+        height_m: frame.camera.position_m().y,
+        pixel_rad: pixel_width.max(pixel_height),
+        cell_texels: cell_texels(sheet),
+        ..Default::default()
     }
 }
 

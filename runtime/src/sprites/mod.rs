@@ -37,7 +37,6 @@ pub mod ring;
 pub mod scene;
 pub mod wind;
 
-use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 use welkin_pack::Field;
 use welkin_pack::field::Hour;
@@ -45,27 +44,50 @@ use welkin_pack::field::Hour;
 use self::wind::lift_m;
 use crate::clear_sky::light::{Light, luminary};
 use crate::clouds::shared::{self, CloudView, LOW_HEIGHT_M};
-use crate::geometry::math::{smoothstep, vec4};
+use crate::geometry::math::smoothstep;
+use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
 
-/// Clouds of sprites: see sprites.wgsl for what each component holds.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct SpriteUniforms {
-    /// xyz: unit direction towards sun or moon; w: contrast of the sheet's relief.
-    pub sun: [f32; 4],
-    /// rgb: the most light of sun or moon; w: share of it where a group faces away.
-    pub colour: [f32; 4],
-    /// rgb: factor on the colour levels; w: share of `colour` where a group faces sun or moon.
-    pub ambient: [f32; 4],
-    /// x: extinction at sea level; y: 1 / scale height; z: opacity; w: how much darker bases are.
-    pub air: [f32; 4],
-    /// x: 1 / width of the rim of sight; y: its end; z: 1 / width of the change to billboards; w: its end.
-    pub fade: [f32; 4],
-    /// rgb: light of a flash where it strikes.
-    pub flash: [f32; 4],
-    /// xyz: from the viewer to the flash; w: 1 / its reach.
-    pub flash_place: [f32; 4],
+uniforms! {
+    /// Clouds of sprites.
+    SpriteUniforms {
+        /// Unit direction towards sun or moon.
+        light_direction: Vec3,
+        /// Contrast of the sheet's relief.
+        relief: f32,
+        /// The most light of sun or moon.
+        light: Vec3,
+        /// Fraction of it where a group faces away.
+        least: f32,
+        /// Factor on the colour levels.
+        ambient: Vec3,
+        /// Fraction of the light where a group faces sun or moon.
+        most: f32,
+        /// Extinction of the air at sea level, 1 / m.
+        extinction_per_m: f32,
+        /// 1 / scale height of the air, 1 / m.
+        air_height_per_m: f32,
+        /// Opacity of a sprite.
+        opacity: f32,
+        /// How much darker bases are.
+        dark_base: f32,
+        /// 1 / width of the rim of sight, 1 / m.
+        rim_per_m: f32,
+        /// How far clouds are seen, m.
+        distance_m: f32,
+        /// 1 / width of the change to billboards, 1 / m.
+        change_per_m: f32,
+        /// Where billboards begin, m.
+        billboards_m: f32,
+        /// Light of a flash of lightning where it strikes.
+        flash: Vec3,
+        /// Nothing.
+        _pad: f32,
+        /// From the viewer to the flash, m.
+        flash_position: Vec3,
+        /// 1 / reach of the flash, 1 / m.
+        flash_per_m: f32,
+    }
 }
 
 /// Extinction of clear air at sea level, 1 / m, and the height over which it falls to 1 / e, in metres. Visibility by
@@ -113,18 +135,24 @@ pub fn uniforms(
     ];
     let flash_place = DVec3::new(x, y, z) - view.place_m;
     SpriteUniforms {
-        sun: vec4(luminary.sun_direction, mix(RELIEF)),
-        colour: vec4(Vec3::from(hour.colour) * (change * shut), hour.least),
-        ambient: vec4(Vec3::splat(hour.ambient), hour.most),
-        air: [EXTINCTION, 1.0 / AIR_HEIGHT_M, mix(OPACITY), mix(DARK_BASE)],
-        fade: [
-            1.0 / (RIM * own.distance_m),
-            own.distance_m,
-            1.0 / (CHANGE * billboards),
-            billboards,
-        ],
-        flash: vec4(flash, 0.0),
-        flash_place: vec4(flash_place.as_vec3(), 1.0 / FLASH_REACH_M),
+        light_direction: luminary.sun_direction,
+        relief: mix(RELIEF),
+        light: Vec3::from(hour.colour) * (change * shut),
+        least: hour.least,
+        ambient: Vec3::splat(hour.ambient),
+        most: hour.most,
+        extinction_per_m: EXTINCTION,
+        air_height_per_m: 1.0 / AIR_HEIGHT_M,
+        opacity: mix(OPACITY),
+        dark_base: mix(DARK_BASE),
+        rim_per_m: 1.0 / (RIM * own.distance_m),
+        distance_m: own.distance_m,
+        change_per_m: 1.0 / (CHANGE * billboards),
+        billboards_m: billboards,
+        flash,
+        flash_position: flash_place.as_vec3(),
+        flash_per_m: 1.0 / FLASH_REACH_M,
+        ..Default::default()
     }
 }
 
@@ -147,10 +175,9 @@ pub fn closing(params: &SkyParams, viewer_m: f32, [base_m, top_m]: [f32; 2]) -> 
 
 /// Mean radiance of a sky that the field's clouds have shut.
 pub fn overcast(sprites: &SpriteUniforms) -> Vec3 {
-    let rgb = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
-    let middle = 0.5 * (sprites.colour[3] + sprites.ambient[3]);
-    OVERCAST_LEVEL * rgb(sprites.ambient) * (1.0 - 0.5 * sprites.air[3])
-        + UNDERSIDE * middle * rgb(sprites.colour)
+    let middle = 0.5 * (sprites.least + sprites.most);
+    OVERCAST_LEVEL * sprites.ambient * (1.0 - 0.5 * sprites.dark_base)
+        + UNDERSIDE * middle * sprites.light
 }
 
 /// Colour level of the base of a sheet of clouds.
@@ -219,9 +246,9 @@ mod tests {
             };
             uniforms(&SkyParams::default(), &view, &light, &hours, Vec3::ZERO)
         };
-        assert_eq!(at(0.5).colour[0], 1.0);
-        assert!(at(-0.0999).colour[0] < 1e-3 && at(-0.1001).colour[0] < 1e-3);
-        assert!(at(-0.0999).sun[0] > 0.9 && at(-0.1001).sun[0] < -0.9);
-        assert_eq!(at(-0.4).colour[0], 1.0);
+        assert_eq!(at(0.5).light.x, 1.0);
+        assert!(at(-0.0999).light.x < 1e-3 && at(-0.1001).light.x < 1e-3);
+        assert!(at(-0.0999).light_direction.x > 0.9 && at(-0.1001).light_direction.x < -0.9);
+        assert_eq!(at(-0.4).light.x, 1.0);
     }
 }

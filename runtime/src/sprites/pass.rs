@@ -179,11 +179,10 @@ impl Pass {
 
     /// Share of the sun's light that comes through to the viewer.
     pub fn clear_towards_sun(&self, frame: &Frame<'_>, sun: Vec3) -> f32 {
-        let opacity = frame.look.air[2];
         let own = &frame.params.sprites;
         let reach = f64::from(own.distance_m);
         self.scene
-            .clear_towards(sun, frame.viewer_m(), reach, opacity)
+            .clear_towards(sun, frame.viewer_m(), reach, frame.look.opacity)
     }
 
     /// Sprites that the recorded frame draws, on the screen and into the ring.
@@ -373,8 +372,8 @@ impl Pass {
         viewpoint_m: DVec3,
         share: f32,
     ) {
-        let [_, _, width, end] = frame.look.fade;
-        let billboards = [end - 1.0 / width, end];
+        let end = frame.look.billboards_m;
+        let billboards = [end - 1.0 / frame.look.change_per_m, end];
         let instances = &self.instances;
         let upload = |row: u32, sprites: &[Instance]| upload(queue, instances, row, sprites);
         let viewer_m = frame.viewer_m();

@@ -1,6 +1,6 @@
 //! The pipelines and the bind groups of the sprites.
 
-use bytemuck::{Pod, Zeroable};
+use glam::{UVec2, Vec3};
 use welkin_pack::SheetCell;
 
 use super::outline::Outline;
@@ -12,6 +12,7 @@ use crate::device::layouts::{entry, texture, vertex_state};
 use crate::device::map::target;
 use crate::device::pipeline::{depth_state, multisample_state};
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 
 /// Bytes from one view or block to the next: what every device takes as an offset.
 pub const STRIDE: u64 = 256;
@@ -30,17 +31,28 @@ pub const PART: Part = Part {
         ("SPRITE_LOCK", Value::F32(locks::LOCK)),
         ("SPRITE_NEAR", Value::F32(locks::NEAR)),
     ],
+    structs: &[
+        super::SpriteUniforms::WGSL,
+        SpriteView::WGSL,
+        SpriteBlock::WGSL,
+    ],
     wgsl: include_str!("sprites.wgsl"),
 };
 
-/// A block of sprites, in a buffer of its own.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct SpriteBlock {
-    /// xyz: from the viewpoint to its corner; w: its opacity.
-    pub origin: [f32; 4],
-    /// x: number of its first sprite in the texture; y: log2 of the vertices of each.
-    pub slot: [u32; 4],
+uniforms! {
+    /// A block of sprites, 16 square kilometres, in a buffer of its own.
+    SpriteBlock {
+        /// From the viewpoint to its north-west corner at the height of the field's sea level, m.
+        origin: Vec3,
+        /// Its opacity.
+        opacity: f32,
+        /// Number of its first sprite in the texture.
+        first: u32,
+        /// log2 of the vertices of each: 3 for outlines, 2 for boxes.
+        vertices_log2: u32,
+        /// Nothing.
+        _pad: UVec2,
+    }
 }
 
 /// What of a sprite or of the ring is left of the colour behind it: their own is multiplied by their opacity.

@@ -18,13 +18,12 @@
 //! A frame that draws one picture draws an eighth of the far sprites, at a thirtieth of the pixels of a screen. Where clouds are seen
 //! so far that a picture has more than [`BLOCKS_A_FRAME`] blocks, it takes several frames.
 
-use bytemuck::{Pod, Zeroable};
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3, Vec4};
 use welkin_pack::field::SECTION_SIDE_M;
 
 use super::grid::BlockId;
-use crate::geometry::math::vec4;
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 
 /// Its part of the shader.
 pub const PART: Part = Part {
@@ -33,47 +32,72 @@ pub const PART: Part = Part {
         ("RING_HALF_SIDE", Value::F32(HALF_SIDE)),
         ("RING_BRIGHTEST", Value::F32(BRIGHTEST)),
     ],
+    structs: &[RingSet::WGSL, RingSide::WGSL, RingUniforms::WGSL],
     wgsl: include_str!("ring.wgsl"),
 };
 
-/// A viewpoint that sprites are drawn for, in a buffer of its own: see sprites.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct SpriteView {
-    /// Dot of xyz with a place gives its clip x.
-    pub clip_x: [f32; 4],
-    /// The same for y.
-    pub clip_y: [f32; 4],
-    /// The same for z, plus w.
-    pub clip_z: [f32; 4],
-    /// The same as x for w.
-    pub clip_w: [f32; 4],
-    /// x: height above the sea; y: a pixel in radians; z: texels a side of a cell.
-    pub viewer: [f32; 4],
-}
+uniforms! {
+    /// A viewpoint that sprites are drawn for, in a buffer of its own: the camera, or the middle of the ring towards one of its sides.
+    SpriteView {
+        /// Row of a matrix: dot of its xyz with a position gives its clip x.
+        clip_x: Vec4,
+        /// The same for y.
+        clip_y: Vec4,
+        /// The same for z, plus w.
+        clip_z: Vec4,
+        /// The same as x for w.
+        clip_w: Vec4,
+        /// Height above the sea, m.
+        height_m: f32,
+        /// A pixel in the middle of the picture, in radians.
+        pixel_rad: f32,
+        /// Texels a side of a cell of the sheet.
+        cell_texels: f32,
+        /// Nothing.
+        _pad: f32,
+    }
 
-/// One of two rings that are cross-faded: see ring.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct RingSet {
-    /// xyz: from the viewer to the middle of the ring; w: its share.
-    pub place: [f32; 4],
-    /// x: tangent of the elevation at the upper edge; y: 1 / (that less the lower edge's); z: 1 / width of a picture.
-    pub span: [f32; 4],
-}
+    /// One of two rings that are cross-faded.
+    RingSet {
+        /// From the viewer to the middle of the ring, m.
+        centre: Vec3,
+        /// Its weight.
+        weight: f32,
+        /// Tangent of the elevation at the upper edge.
+        top: f32,
+        /// 1 / (that less the lower edge's).
+        per_height: f32,
+        /// 1 / width of a picture, over the radius.
+        per_width: f32,
+        /// Nothing.
+        _pad: f32,
+    }
 
-/// The ring of impostors, in a buffer of its own.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct RingUniforms {
-    /// The ring in use.
-    pub used: RingSet,
-    /// The one that it fades to.
-    pub next: RingSet,
-    /// x: radius; y, z: tangents at the lower and the upper edge of what is drawn.
-    pub walls: [f32; 4],
-    /// Of each side, from the north to the east: outward normal (east, south), and along it, clockwise.
-    pub sides: [[f32; 4]; 8],
+    /// A side of the ring.
+    RingSide {
+        /// Outward normal (east, south).
+        normal: Vec2,
+        /// Along it, clockwise.
+        along: Vec2,
+    }
+
+    /// The ring of impostors, in a buffer of its own.
+    RingUniforms {
+        /// The ring in use.
+        used: RingSet,
+        /// The one that it fades to.
+        next: RingSet,
+        /// Radius to the middle of a side, m.
+        radius_m: f32,
+        /// Tangent of the elevation at the lower edge of what is drawn.
+        bottom: f32,
+        /// Tangent at its upper edge.
+        top: f32,
+        /// Nothing.
+        _pad: f32,
+        /// From the north to the east.
+        sides: [RingSide; PICTURES],
+    }
 }
 
 /// Pictures of a ring.
@@ -203,11 +227,14 @@ impl Station {
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
         let texel = 2.0 / SIDE as f32 * (half_width() * half).sqrt();
         SpriteView {
-            clip_x: vec4(right / half_width(), 0.0),
-            clip_y: vec4((Vec3::Y - middle * forward) / half, 0.0),
-            clip_z: vec4(0.5 * forward, 0.0),
-            clip_w: vec4(forward, 0.0),
-            viewer: [(self.place_m.y - sea_m) as f32, texel, cell_texels, 0.0],
+            clip_x: (right / half_width()).extend(0.0),
+            clip_y: ((Vec3::Y - middle * forward) / half).extend(0.0),
+            clip_z: (0.5 * forward).extend(0.0),
+            clip_w: forward.extend(0.0),
+            height_m: (self.place_m.y - sea_m) as f32,
+            pixel_rad: texel,
+            cell_texels,
+            ..Default::default()
         }
     }
 
@@ -221,8 +248,12 @@ impl Station {
         let typical = (self.radius_m * self.distance_m).sqrt().max(self.radius_m);
         let behind = (self.place_m - now_m) * (self.radius_m / typical);
         RingSet {
-            place: vec4(behind.as_vec3(), share),
-            span: [high, 1.0 / (high - low), 0.5 / half_width(), 0.0],
+            centre: behind.as_vec3(),
+            weight: share,
+            top: high,
+            per_height: 1.0 / (high - low),
+            per_width: 0.5 / half_width(),
+            ..Default::default()
         }
     }
 }
@@ -351,25 +382,29 @@ impl Ring {
             .next()
             .filter(|_| new_share > 0.0)
             .map_or(RingSet::default(), |next| next.set(now_m, new_share));
-        let radius = self.current.radius_m as f32;
-        let mut walls = [f32::MAX, f32::MIN];
-        for set in [used, next].iter().filter(|set| set.place[3] > 0.0) {
+        let (mut bottom, mut top) = (f32::MAX, f32::MIN);
+        for set in [used, next].iter().filter(|set| set.weight > 0.0) {
             // A tenth of the radius up or down is more than the ring is ever shifted by.
-            let (high, low) = (set.span[0], set.span[0] - 1.0 / set.span[1]);
-            walls = [walls[0].min(low - 0.1), walls[1].max(high + 0.1)];
+            bottom = bottom.min(set.top - 1.0 / set.per_height - 0.1);
+            top = top.max(set.top + 0.1);
         }
-        let shows = walls[0] < walls[1];
         let side = |side: usize| {
             let (sin, cos) = azimuth_rad(side).sin_cos();
-            [sin, -cos, cos, sin]
+            RingSide {
+                normal: Vec2::new(sin, -cos),
+                along: Vec2::new(cos, sin),
+            }
         };
         let uniforms = RingUniforms {
             used,
             next,
-            walls: [radius, walls[0], walls[1], 0.0],
+            radius_m: self.current.radius_m as f32,
+            bottom,
+            top,
             sides: std::array::from_fn(side),
+            ..Default::default()
         };
-        (uniforms, shows)
+        (uniforms, bottom < top)
     }
 }
 
@@ -517,7 +552,7 @@ mod tests {
                     + DVec3::Y * (up - height);
                 let picture = (azimuth / std::f64::consts::TAU * 8.0).round() as usize % PICTURES;
                 let view = station.view(picture, 128.0, 0.0);
-                let along = |row: [f32; 4]| Vec3::new(row[0], row[1], row[2]).dot(place.as_vec3());
+                let along = |row: Vec4| row.truncate().dot(place.as_vec3());
                 let w = along(view.clip_w);
                 let (x, y) = (along(view.clip_x) / w, along(view.clip_y) / w);
                 // Where its own side ends, two texels of 256 are left.

@@ -56,8 +56,10 @@ pub struct Draw {
     pub first: u32,
     /// How many there are.
     pub count: u32,
-    /// xyz: from the viewpoint to the block's corner; w: opacity.
-    pub origin: [f32; 4],
+    /// From the viewpoint to the block's corner, in metres.
+    pub origin: Vec3,
+    /// Opacity of the block.
+    pub opacity: f32,
     /// Vertices of each sprite: [`outline::VERTICES`] or [`outline::BOX`].
     pub vertices: usize,
 }
@@ -214,7 +216,8 @@ impl Scene {
         (count > 0).then(|| Draw {
             first: slot as u32 * self.rows_a_slot * A_ROW,
             count,
-            origin: origin.as_vec3().extend(share).to_array(),
+            origin: origin.as_vec3(),
+            opacity: share,
             vertices: if is_far {
                 outline::BOX
             } else {
@@ -306,7 +309,7 @@ impl Scene {
 }
 
 /// The planes of the sides of a view, whose normals look inwards, from its clip rows.
-pub fn planes(clip_x: [f32; 4], clip_y: [f32; 4], clip_w: [f32; 4]) -> [Vec3; 5] {
-    let [x, y, w] = [clip_x, clip_y, clip_w].map(|row| Vec4::from(row).truncate());
+pub fn planes(clip_x: Vec4, clip_y: Vec4, clip_w: Vec4) -> [Vec3; 5] {
+    let [x, y, w] = [clip_x, clip_y, clip_w].map(Vec4::truncate);
     [w + x, w - x, w + y, w - y, w]
 }

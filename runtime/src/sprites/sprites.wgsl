@@ -1,29 +1,7 @@
-// Clouds of sprites in space. Theory and CPU part: sprites.rs and the files in sprites/.
-struct SpriteUniforms {
-    sun: vec4f,     // xyz: unit direction towards sun or moon; w: contrast of the sheet's relief
-    colour: vec4f,  // rgb: the most light of sun or moon; w: share of it where a group faces away
-    ambient: vec4f, // rgb: factor on the colour levels; w: share of `colour` where a group faces sun or moon
-    air: vec4f,     // x: extinction at sea level, 1 / m; y: 1 / scale height, 1 / m; z: opacity; w: how much darker bases are
-    fade: vec4f,    // x: 1 / width of the rim of sight, 1 / m; y: its end, m; z: 1 / width of the change to billboards; w: its end, m
-    flash: vec4f,   // rgb: light of a flash of lightning where it strikes; w: not used
-    flash_place: vec4f, // xyz: from the viewer to the flash, m; w: 1 / its reach, 1 / m
-}
+// Clouds of sprites in space. Theory and CPU part: mod.rs and the files beside it.
 
 // A viewpoint: the camera, or the middle of the ring towards one of its sides.
-struct SpriteView {
-    clip_x: vec4f, // dot of xyz with a place gives its clip x
-    clip_y: vec4f,
-    clip_z: vec4f, // the same, plus w
-    clip_w: vec4f,
-    viewer: vec4f, // x: height above the sea, m; y: a pixel in the middle of the picture, radians; z: texels a side of a cell
-}
-
 // A block of 16 square kilometres.
-struct SpriteBlock {
-    origin: vec4f, // xyz: from the viewpoint to its north-west corner at the height of the field's sea level, m; w: its opacity
-    slot: vec4u,   // x: number of its first sprite in the texture; y: log2 of the vertices of each, 3 for outlines, 2 for boxes
-}
-
 // Outlines of the sheet's cells: eight vertices each, two a vector.
 struct SpriteOutlines {
     vertices: array<vec4f, 64>,
@@ -49,7 +27,7 @@ struct SpriteInstance {
 
 // A sprite of the block. Read from a texture, since instances of a few vertices each leave most of a GPU's lanes idle.
 fn sprite_instance(number: u32) -> SpriteInstance {
-    let place = sprite_block.slot.x + number;
+    let place = sprite_block.first + number;
     let texel = vec2u((place % SPRITES_A_ROW) * 4u, place / SPRITES_A_ROW);
     let a = textureLoad(instances_texture, texel, 0);
     let b = textureLoad(instances_texture, texel + vec2u(1u, 0u), 0);
@@ -90,10 +68,11 @@ fn sprite_amount(low: u32, high: u32) -> f32 {
 
 // What the air between viewer and place leaves of light: its density falls exponentially with height.
 fn sprite_clearness(place: vec3f, distance: f32) -> f32 {
-    let air = uniforms.sprites.air;
-    let rise = place.y * air.y;
+    let own = uniforms.sprites;
+    let rise = place.y * own.air_height_per_m;
     let mean = select((1.0 - exp(-rise)) / rise, 1.0 - 0.5 * rise, abs(rise) < 1e-3);
-    return exp(-air.x * exp(-max(sprite_view.viewer.x, 0.0) * air.y) * mean * distance);
+    let at_viewer = exp(-max(sprite_view.height_m, 0.0) * own.air_height_per_m);
+    return exp(-own.extinction_per_m * at_viewer * mean * distance);
 }
 
 // The sprite's right and up, in the order of its own turn; it faces the viewer, or as it is locked, or up.
@@ -112,16 +91,16 @@ fn sprite_axes(instance: SpriteInstance, facing: vec3f) -> mat2x3f {
 fn sprite_light(instance: SpriteInstance, offset: vec3f, direction: vec3f, up: f32) -> vec3f {
     let own = uniforms.sprites;
     let share = mix(instance.size.z, instance.size.w, up);
-    let ambient = mix(instance.low.rgb, instance.high.rgb, up) * own.ambient.rgb * (1.0 - own.air.w * (1.0 - share));
+    let ambient = mix(instance.low.rgb, instance.high.rgb, up) * own.ambient * (1.0 - own.dark_base * (1.0 - share));
     let from_group = instance.from_group.xyz + offset;
-    let towards = dot(from_group, own.sun.xyz) / max(length(from_group), 1.0);
-    let sun = own.colour.rgb * mix(own.colour.w, own.ambient.w, 0.5 + 0.5 * towards);
-    return ambient + sun * mix(vec3f(1.0), uniforms.clouds.tint.rgb, cloud_tint(direction));
+    let towards = dot(from_group, own.light_direction) / max(length(from_group), 1.0);
+    let sun = own.light * mix(own.least, own.most, 0.5 + 0.5 * towards);
+    return ambient + sun * mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
 }
 
 fn sprite_flash(place: vec3f) -> vec3f {
-    let away = (place - uniforms.sprites.flash_place.xyz) * uniforms.sprites.flash_place.w;
-    return uniforms.sprites.flash.rgb * exp2(-dot(away, away));
+    let away = (place - uniforms.sprites.flash_position) * uniforms.sprites.flash_per_m;
+    return uniforms.sprites.flash * exp2(-dot(away, away));
 }
 
 // A vertex of a cell's outline; x and y in half sides, y up.
@@ -133,7 +112,7 @@ fn sprite_outline(cell: u32, vertex: u32) -> vec2f {
 
 // A corner of the outline, or of the box around it, anticlockwise.
 fn sprite_corner(cell: u32, corner: u32) -> vec2f {
-    if sprite_block.slot.y == 3u {
+    if sprite_block.vertices_log2 == 3u {
         return sprite_outline(cell, corner);
     }
     let right = corner == 1u || corner == 2u;
@@ -142,9 +121,9 @@ fn sprite_corner(cell: u32, corner: u32) -> vec2f {
 }
 
 fn sprite_vertex(index: u32) -> SpriteVaryings {
-    let instance = sprite_instance(index >> sprite_block.slot.y);
+    let instance = sprite_instance(index >> sprite_block.vertices_log2);
     let own = uniforms.sprites;
-    let middle = sprite_block.origin.xyz + instance.centre.xyz;
+    let middle = sprite_block.origin + instance.centre.xyz;
     let distance = max(length(middle), 1e-3);
     let radius = max(instance.size.x, instance.size.y);
     let to_viewer = -middle / distance;
@@ -158,18 +137,18 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     var opacity = mix(1.0, max(meets, 0.0), locked) * smoothstep(0.0, SPRITE_NEAR, before);
 
     // Far away: the rim of sight, where clouds take the colour of what is behind them before they go, and the change from sprites to one billboard a cloud.
-    let rim = clamp((own.fade.y - distance) * own.fade.x, 0.0, 1.0);
+    let rim = clamp((own.distance_m - distance) * own.rim_per_m, 0.0, 1.0);
     opacity *= min(SPRITE_RIM_OPAQUE * rim, 1.0);
-    let near = clamp((own.fade.w - distance) * own.fade.z, 0.0, 1.0);
+    let near = clamp((own.billboards_m - distance) * own.change_per_m, 0.0, 1.0);
     opacity *= select(near, 1.0 - near, instance.names.w == 1u);
 
     let amount = sprite_amount(instance.names.y, instance.names.z);
-    opacity *= sprite_block.origin.w * own.air.z;
+    opacity *= sprite_block.opacity * own.opacity;
     if opacity * amount <= 0.0 {
         return SpriteVaryings(vec4f(0.0, 0.0, 0.0, -1.0), vec2f(0.0), 0.0, vec4f(0.0), vec3f(0.0));
     }
 
-    let corner = sprite_corner(instance.names.x, index & ((1u << sprite_block.slot.y) - 1u));
+    let corner = sprite_corner(instance.names.x, index & ((1u << sprite_block.vertices_log2) - 1u));
     let axes = sprite_axes(instance, facing);
     let offset = axes * (corner * instance.size.xy);
     let place = middle + offset;
@@ -192,11 +171,11 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     );
     let cell = vec2f(f32(instance.names.x & 3u), f32(instance.names.x >> 2u));
     let uv = (cell + vec2f(0.5, -0.5) * corner + 0.5) * 0.25;
-    let texels_a_pixel = sprite_view.viewer.z * sprite_view.viewer.y * distance / (2.0 * sqrt(instance.size.x * instance.size.y));
+    let texels_a_pixel = sprite_view.cell_texels * sprite_view.pixel_rad * distance / (2.0 * sqrt(instance.size.x * instance.size.y));
     // Far away a whole level: between two, every texel of every sprite would cost two reads.
     let fine = max(log2(max(texels_a_pixel, 1e-6)), 0.0);
-    let level = select(fine, round(fine), sprite_block.slot.y == 2u);
-    return SpriteVaryings(clip, uv, level, vec4f(seen, opacity), light * (clearness * own.sun.w));
+    let level = select(fine, round(fine), sprite_block.vertices_log2 == 2u);
+    return SpriteVaryings(clip, uv, level, vec4f(seen, opacity), light * (clearness * own.relief));
 }
 
 // Radiance at a grey of one quarter and of three quarters.

@@ -16,14 +16,14 @@
 //! pixel, in pipelines that are made when a flash is first told, before it begins; without a flash, nothing. The light does not go beyond clouds and rain: an application that wants its scene
 //! lit asks [`brightness`].
 
-use bytemuck::{Pod, Zeroable};
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::clear_sky::light::luminance;
 use crate::clouds::shared::{CloudUniforms, CloudView, LOW_HEIGHT_M};
 use crate::geometry::dome::CLOUD_SPHERE_RADIUS;
-use crate::geometry::math::{mix, vec4};
+use crate::geometry::math::mix;
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 use crate::params::{Lightning, SkyParams};
 
 /// Its part of the shader.
@@ -33,17 +33,22 @@ pub const PART: Part = Part {
         ("LIGHTNING_THIN", Value::F32(THIN)),
         ("LIGHTNING_SPREAD", Value::Vec2(SPREAD)),
     ],
+    structs: &[LightningUniforms::WGSL],
     wgsl: include_str!("lightning.wgsl"),
 };
 
-/// A flash of lightning, all 0 without one.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct LightningUniforms {
-    /// xy: where it is on the plane of the dome; w: 1 / luminance of the brightest cloud without it.
-    pub place: [f32; 4],
-    /// rgb: its light.
-    pub light: [f32; 4],
+uniforms! {
+    /// A flash of lightning, all 0 without one.
+    LightningUniforms {
+        /// Its light.
+        light: Vec3,
+        /// 1 / luminance of the brightest cloud without it.
+        per_white: f32,
+        /// Where it is on the plane of the dome.
+        position: Vec2,
+        /// Nothing.
+        _pad: Vec2,
+    }
 }
 
 /// How fast the bright core and the wide glow fall, by the square of the distance in heights: half of the core is within 0.5
@@ -119,11 +124,12 @@ pub fn uniforms(
     }
     let [east, south] = flash.place_m.map(f64::from);
     let (place, nearness) = on_the_plane(DVec2::new(east, south), view);
-    let ambient = Vec3::from_slice(&clouds.ambient);
-    let white = luminance(sunlight + ambient).max(1e-3);
+    let white = luminance(sunlight + clouds.ambient).max(1e-3);
     LightningUniforms {
-        place: [place.x as f32, place.y as f32, 0.0, 1.0 / white],
-        light: vec4(LIGHT * (brightness * nearness as f32), 0.0),
+        light: LIGHT * (brightness * nearness as f32),
+        per_white: 1.0 / white,
+        position: place.as_vec2(),
+        ..Default::default()
     }
 }
 

@@ -10,5 +10,6 @@ use crate::geometry::part::Part;
 /// What rain and lightning add to a pixel of the sky.
 pub const PART: Part = Part {
     constants: &[],
+    structs: &[],
     wgsl: include_str!("weather.wgsl"),
 };

@@ -26,7 +26,7 @@ pub(crate) struct Shown {
 /// What a frame shows.
 pub(crate) fn shown(rays: &RayUniforms, rain: &RainUniforms) -> Shown {
     Shown {
-        rays: rays.sun[3] > 0.0,
+        rays: rays.opacity > 0.0,
         rain: vertices(rain),
     }
 }

@@ -20,13 +20,12 @@
 
 use std::f32::consts::TAU;
 
-use bytemuck::{Pod, Zeroable};
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::clouds::shared::{CloudUniforms, CloudView};
 use crate::geometry::camera::Rays;
-use crate::geometry::math::vec4;
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
 use crate::weather::lightning::LightningUniforms;
 
@@ -42,30 +41,54 @@ pub const PART: Part = Part {
         ("RAIN_MIDDLE", Value::U32(SLOTS[0])),
         ("RAIN_FAR", Value::U32(SLOTS[0] + SLOTS[1])),
     ],
+    structs: &[RainDrops::WGSL, RainUniforms::WGSL],
     wgsl: include_str!("rain.wgsl"),
 };
 
-/// Rain, all 0 without.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct RainUniforms {
-    /// xyz: unit vector across the fall; w: share of the drops that are there.
-    pub right: [f32; 4],
-    /// xyz: unit vector against the fall; w: a pixel in the middle of the screen, in radians.
-    pub up: [f32; 4],
-    /// xyz: the third one.
-    pub forward: [f32; 4],
-    /// x: first column in sight; y: how many.
-    pub sight: [f32; 4],
-    /// rgb: radiance of a streak.
-    pub streak: [f32; 4],
-    /// rgb: radiance of the haze; w: its opacity at the horizon.
-    pub haze: [f32; 4],
-    /// Of each kind of drop, x, y: how often it has fallen the whole height, fraction and whole part; z: least radius; w: how far
-    /// from it radii go.
-    pub places: [[f32; 4]; KINDS],
-    /// x: half the width of a streak, y: half its length, both in metres; z: opacity.
-    pub sizes: [[f32; 4]; KINDS],
+uniforms! {
+    /// A kind of drops.
+    RainDrops {
+        /// How often the first has fallen the whole height: what is over whole numbers.
+        fallen_fraction: f32,
+        /// The whole number.
+        fallen_count: f32,
+        /// The nearest to the axis, in metres.
+        radius_m: f32,
+        /// How far from there they go, in metres.
+        radius_range_m: f32,
+        /// Half the width and half the length of a streak, in metres.
+        half_size_m: Vec2,
+        /// Opacity of a streak.
+        opacity: f32,
+        /// Nothing.
+        _pad: f32,
+    }
+
+    /// Rain, all 0 without.
+    RainUniforms {
+        /// Unit vector across the fall.
+        right: Vec3,
+        /// Fraction of the drops that are there.
+        amount: f32,
+        /// Unit vector against the fall.
+        up: Vec3,
+        /// A pixel in the middle of the screen, in radians.
+        pixel_rad: f32,
+        /// Unit vector across both.
+        forward: Vec3,
+        /// First column in sight.
+        first_column: f32,
+        /// Radiance of a streak.
+        streak: Vec3,
+        /// How many columns are in sight.
+        columns: f32,
+        /// Radiance of the haze.
+        haze: Vec3,
+        /// Opacity of the haze at the horizon.
+        haze_opacity: f32,
+        /// Of each kind, from the nearest.
+        drops: [RainDrops; KINDS],
+    }
 }
 
 /// Kinds of drops: near, farther and far.
@@ -106,6 +129,7 @@ const fn kind(radii_m: [f64; 2], fall_m_s: f64, diameter_m: f64, opacity: f32) -
     }
 }
 
+/// Near, farther and far: the fall is that of drops of 3 to 2 millimetres (Gunn and Kinzer); widths and opacities are chosen by eye, wide as out of focus.
 const RAIN: [Kind; KINDS] = [
     kind([1.2, 2.5], 8.1, 0.007, 0.48),
     kind([2.5, 6.0], 7.4, 0.010, 0.65),
@@ -120,8 +144,9 @@ const WIND_M_S: [f64; 2] = [2.4, 1.8];
 const AXIS_FALL_M_S: f64 = 7.0;
 /// The opacity of the haze at the horizon where rain is 1.
 const HAZE: f32 = 0.6;
-/// What a flash adds to the light of streaks and haze.
-const FLASH: [f32; 2] = [0.45, 0.12];
+/// Light of sun, sky and lightning on streaks and on haze. Chosen by eye.
+const STREAK_LIGHT: [f32; 3] = [0.45, 1.3, 0.45];
+const HAZE_LIGHT: [f32; 3] = [0.15, 0.8, 0.12];
 /// Falls over the whole height after which the rain repeats: more than a day.
 const PERIOD: f64 = 65_536.0;
 /// Corners of a streak's two triangles.
@@ -147,36 +172,43 @@ pub fn uniforms(
     // The seam of the columns lies to the north.
     let right = up.cross(DVec3::NEG_Z).normalize();
     let axes = [right, up, up.cross(right)].map(|axis| axis.as_vec3());
-    let [first, count] = columns_in_sight(axes, screen, view.pixel_rad);
-    let rgb = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
-    let (sun, ambient) = (sunlight, rgb(clouds.ambient));
-    let [lit_streaks, lit_haze] = FLASH.map(|share| share * rgb(flash.light));
+    let [first_column, columns] = columns_in_sight(axes, screen, view.pixel_rad);
+    let [right, up, forward] = axes;
+    let light = |[sun, sky, lightning]: [f32; 3]| {
+        sky * clouds.ambient + sun * sunlight + lightning * flash.light
+    };
     RainUniforms {
-        right: vec4(axes[0], amount.sqrt()),
-        up: vec4(axes[1], view.pixel_rad),
-        forward: vec4(axes[2], 0.0),
-        sight: [first as f32, count as f32, 0.0, 0.0],
-        streak: vec4(1.3 * ambient + 0.45 * sun + lit_streaks, 0.0),
-        haze: vec4(0.8 * ambient + 0.15 * sun + lit_haze, HAZE * amount),
-        places: RAIN.map(|own| place(&own, view.seconds)),
-        sizes: RAIN.map(|own| {
-            let half = [0.5 * own.diameter_m, 0.5 * own.fall_m_s * EXPOSURE_S];
-            let [width, length] = half.map(|v| v as f32);
-            [width, length, own.opacity, 0.0]
-        }),
+        right,
+        amount: amount.sqrt(),
+        up,
+        pixel_rad: view.pixel_rad,
+        forward,
+        first_column: first_column as f32,
+        streak: light(STREAK_LIGHT),
+        columns: columns as f32,
+        haze: light(HAZE_LIGHT),
+        haze_opacity: HAZE * amount,
+        drops: RAIN.map(|own| drops(&own, view.seconds)),
     }
 }
 
 /// How many vertices draw the streaks of a frame, 0 without rain.
 pub(crate) fn vertices(rain: &RainUniforms) -> u32 {
-    rain.sight[1] as u32 * DROPS_A_COLUMN * VERTICES_A_DROP
+    rain.columns as u32 * DROPS_A_COLUMN * VERTICES_A_DROP
 }
 
-fn place(own: &Kind, seconds: f64) -> [f32; 4] {
+fn drops(own: &Kind, seconds: f64) -> RainDrops {
     let fallen = (own.fall_m_s * seconds / HEIGHT_M).rem_euclid(PERIOD);
     let [least, most] = own.radii_m;
-    let [fraction, whole] = [fallen.fract(), fallen.trunc()];
-    [fraction, whole, least, most - least].map(|v| v as f32)
+    RainDrops {
+        fallen_fraction: fallen.fract() as f32,
+        fallen_count: fallen.trunc() as f32,
+        radius_m: least as f32,
+        radius_range_m: (most - least) as f32,
+        half_size_m: (0.5 * DVec2::new(own.diameter_m, own.fall_m_s * EXPOSURE_S)).as_vec2(),
+        opacity: own.opacity,
+        ..Default::default()
+    }
 }
 
 /// The first column that a screen shows a part of, and how many it does. `axes` are those of the rain: right, up, forward.
@@ -251,7 +283,7 @@ mod tests {
     }
 
     fn axes(rain: &RainUniforms) -> [Vec3; 3] {
-        [rain.right, rain.up, rain.forward].map(|v| Vec3::new(v[0], v[1], v[2]))
+        [rain.right, rain.up, rain.forward]
     }
 
     #[test]
@@ -283,8 +315,8 @@ mod tests {
     fn it_falls_at_its_speed_at_any_second() {
         let fallen = |seconds: f64| {
             at(0.0, seconds, &level())
-                .places
-                .map(|p| f64::from(p[1]) + f64::from(p[0]))
+                .drops
+                .map(|own| f64::from(own.fallen_count) + f64::from(own.fallen_fraction))
         };
         for seconds in [0.0, 5.0, 7777.7, 1e6, -40.0] {
             let (before, after) = (fallen(seconds), fallen(seconds + 0.5));
@@ -310,7 +342,7 @@ mod tests {
             camera.lens_shift = glam::Vec2::new(number(0.27), number(0.59)) - 0.5;
             let rain = at(number(0.9), 0.0, &camera);
             let ([right, _, forward], rays) = (axes(&rain), camera.rays());
-            let [first, count] = [rain.sight[0], rain.sight[1]];
+            let [first, count] = [rain.first_column, rain.columns];
             fewest = fewest.min(count as u32);
             for (x, y) in (0..21).flat_map(|x| (0..21).map(move |y| (x, y))) {
                 let [x, y] = [x, y].map(|i| i as f32 / 10.0 - 1.0);

@@ -1,16 +1,4 @@
 // Rain: streaks of drops that fall about the viewer, a quad each, and grey haze. Theory and CPU part: rain.rs.
-struct RainUniforms {
-    right: vec4f,   // xyz: unit vector across the fall; w: share of the drops that are there
-    up: vec4f,      // xyz: unit vector against the fall; w: a pixel in the middle of the screen, in radians
-    forward: vec4f, // xyz: the third one
-    sight: vec4f,   // x: first column in sight; y: how many
-    streak: vec4f,  // rgb: radiance of a streak
-    haze: vec4f,    // rgb: radiance of the haze; w: its opacity at the horizon
-    // Of each kind of drop, from the nearest. x, y: how often it has fallen the whole height, fraction and whole part; z: least radius;
-    // w: how far from it radii go
-    places: array<vec4f, 3>,
-    sizes: array<vec4f, 3>, // x: half the width of a streak, y: half its length, both in metres; z: opacity
-}
 
 struct RainVaryings {
     @builtin(position) position: vec4f,
@@ -39,20 +27,19 @@ fn vs_rain(@builtin(vertex_index) index: u32) -> RainVaryings {
     let rain = uniforms.rain;
     let drop = index / 6u;
     let slot = drop % RAIN_SLOTS;
-    let column = (u32(rain.sight.x) + drop / RAIN_SLOTS) % RAIN_COLUMNS;
+    let column = (u32(rain.first_column) + drop / RAIN_SLOTS) % RAIN_COLUMNS;
     let number = column * RAIN_SLOTS + slot;
     let kind = u32(slot >= RAIN_MIDDLE) + u32(slot >= RAIN_FAR);
-    let own = uniforms.rain.places[kind];
-    let real = uniforms.rain.sizes[kind];
+    let own = uniforms.rain.drops[kind];
 
     // Each time that it has fallen the whole height, a drop is another one.
-    let fallen = own.x + f32(rain_hash(number) >> 16u) / 65536.0;
-    let times = (u32(own.y) + u32(fallen)) & 0xffffu;
+    let fallen = own.fallen_fraction + f32(rain_hash(number) >> 16u) / 65536.0;
+    let times = (u32(own.fallen_count) + u32(fallen)) & 0xffffu;
     let shares = rain_shares(rain_hash((times << 15u) | number));
-    if shares.w >= rain.right.w {
+    if shares.w >= rain.amount {
         return RainVaryings(vec4f(0.0, 0.0, 0.0, 1.0), vec2f(0.0), vec4f(0.0));
     }
-    let radius = own.z + own.w * shares.y;
+    let radius = own.radius_m + own.radius_range_m * shares.y;
     let height = RAIN_HEIGHT * (0.5 - fract(fallen));
     // Inside -pi..pi a GPU's sine is exact enough.
     let angle = TAU * ((f32(column) + shares.x) / f32(RAIN_COLUMNS) - 0.5);
@@ -60,23 +47,23 @@ fn vs_rain(@builtin(vertex_index) index: u32) -> RainVaryings {
 
     // What would be narrower or shorter than a pixel is as large as one, and fainter.
     let distance = length(vec2f(radius, height));
-    let size = max(real.xy, rain.up.w * distance * vec2f(1.0, distance / radius));
+    let size = max(own.half_size_m, rain.pixel_rad * distance * vec2f(1.0, distance / radius));
     let ends = min(RAIN_FADE * min(fract(fallen), 1.0 - fract(fallen)), 1.0);
-    let fainter = real.xy / size;
-    let opacity = real.z * fainter.x * fainter.y * ends * (0.4 + 0.6 * shares.z);
+    let fainter = own.half_size_m / size;
+    let opacity = own.opacity * fainter.x * fainter.y * ends * (0.4 + 0.6 * shares.z);
 
     // Corners 0 to 3 in the order 0, 1, 2, 2, 1, 3: two bits each.
     let corner = (0xda4u >> (2u * (index % 6u))) & 3u;
     let side = vec2f(f32(corner & 1u), f32(corner >> 1u)) * 2.0 - 1.0;
     let across = turned * radius + vec2f(turned.y, -turned.x) * (side.x * size.x);
     let along = height + side.y * size.y;
-    let position = rain.right.xyz * across.x + rain.up.xyz * along + rain.forward.xyz * across.y;
+    let position = rain.right * across.x + rain.up * along + rain.forward * across.y;
     let clip = vec3f(
         dot(position, uniforms.camera.clip_x.xyz),
         dot(position, uniforms.camera.clip_y.xyz),
         dot(position, uniforms.camera.clip_w.xyz),
     );
-    let colour = display_colour(rain.streak.rgb);
+    let colour = display_colour(rain.streak);
     return RainVaryings(vec4f(clip.xy, FAR_DEPTH * clip.z, clip.z), side, vec4f(colour, opacity));
 }
 
@@ -90,7 +77,7 @@ fn fs_rain(in: RainVaryings) -> @location(0) vec4f {
 
 // What the haze leaves of what is seen along a unit direction, and its own light.
 fn rain_hazed(radiance: vec3f, direction: vec3f) -> vec3f {
-    let haze = uniforms.rain.haze;
+    let rain = uniforms.rain;
     let thick = RAIN_HAZE_ABOVE + (1.0 - RAIN_HAZE_ABOVE) * exp2(-RAIN_HAZE_FALL * abs(direction.y));
-    return mix(radiance, haze.rgb, haze.w * thick);
+    return mix(radiance, rain.haze, rain.haze_opacity * thick);
 }

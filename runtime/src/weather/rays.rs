@@ -17,7 +17,6 @@
 //! Over the screen one read, an arc tangent and a blend, over the scene too, whatever its depth. It wants a target that
 //! can be blended with; on another one there are no rays.
 
-use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use crate::clear_sky::light::Light;
@@ -25,8 +24,9 @@ use crate::clouds::shared::CloudUniforms;
 use crate::device::layouts::Layouts;
 use crate::device::map;
 use crate::geometry::camera::Rays;
-use crate::geometry::math::{smoothstep, vec4};
+use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
 
 /// Its part of the shader.
@@ -45,23 +45,34 @@ pub const PART: Part = Part {
         ("RAYS_TEXEL", Value::Vec2(TEXEL_RAD)),
         ("RAYS_SIZE", Value::Vec2([SIZE[0] as f32, SIZE[1] as f32])),
     ],
+    structs: &[RayUniforms::WGSL],
     wgsl: include_str!("rays.wgsl"),
 };
 
-/// Crepuscular rays.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct RayUniforms {
-    /// xyz: unit direction towards the sun; w: opacity of the strongest ray, 0 without rays.
-    pub sun: [f32; 4],
-    /// xyz: unit vector across it, along the horizon.
-    pub right: [f32; 4],
-    /// xyz: the third one, away from the horizon.
-    pub up: [f32; 4],
-    /// rgb: radiance of haze in the light; w: halvings of the rays by a chord of 1.
-    pub bright: [f32; 4],
-    /// rgb: radiance of haze in the shade; w: 1 / a pixel in the middle of the screen, in radians.
-    pub dark: [f32; 4],
+uniforms! {
+    /// Crepuscular rays.
+    RayUniforms {
+        /// Unit direction towards the sun.
+        sun_direction: Vec3,
+        /// Opacity of the strongest ray, 0 without rays.
+        opacity: f32,
+        /// Unit vector across it, along the horizon.
+        right: Vec3,
+        /// Halvings of the rays by a chord of 1.
+        fall: f32,
+        /// The third one, away from the horizon.
+        up: Vec3,
+        /// 1 / a pixel in the middle of the screen, in 1 / radians.
+        pixels_per_rad: f32,
+        /// Radiance of haze in the light.
+        bright: Vec3,
+        /// Nothing.
+        _pad_0: f32,
+        /// Radiance of haze in the shade.
+        dark: Vec3,
+        /// Nothing.
+        _pad_1: f32,
+    }
 }
 
 /// Columns, once around the sun, and rows.
@@ -94,6 +105,9 @@ pub const CORE: f32 = 0.12;
 
 /// Halvings of the rays by a chord of 1.
 const FALL: f32 = 1.2;
+/// Sunlight and skylight that haze in the light scatters, and skylight that haze in the shade does. Chosen by eye, as are the two above.
+const BRIGHT: [f32; 2] = [1.6, 0.6];
+const DARK: f32 = 0.4;
 /// Opacity of the strongest ray.
 const OPACITY: f32 = 0.75;
 /// Sines of the sun's elevation between which rays come up.
@@ -117,13 +131,16 @@ pub fn uniforms(
     };
     // A sun at the zenith is as far from every horizon.
     let right = sun.cross(Vec3::Y).normalize_or(Vec3::X);
-    let ambient = Vec3::new(clouds.ambient[0], clouds.ambient[1], clouds.ambient[2]);
     RayUniforms {
-        sun: vec4(sun, params.weather.rays * risen * OPACITY),
-        right: vec4(right, 0.0),
-        up: vec4(right.cross(sun), 0.0),
-        bright: vec4(1.6 * light.sunlight + 0.6 * ambient, FALL),
-        dark: vec4(0.4 * ambient, 1.0 / pixel_rad),
+        sun_direction: sun,
+        opacity: params.weather.rays * risen * OPACITY,
+        right,
+        fall: FALL,
+        up: right.cross(sun),
+        pixels_per_rad: 1.0 / pixel_rad,
+        bright: BRIGHT[0] * light.sunlight + BRIGHT[1] * clouds.ambient,
+        dark: DARK * clouds.ambient,
+        ..Default::default()
     }
 }
 
@@ -247,7 +264,6 @@ mod tests {
 
     #[test]
     fn the_maps_axes_are_perpendicular_wherever_the_sun_is() {
-        let xyz = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
         for sun in [
             Vec3::Y,
             Vec3::X,
@@ -255,7 +271,7 @@ mod tests {
             Vec3::new(0.6, -0.05, -0.8).normalize(),
         ] {
             let rays = at(sun, 0.0);
-            let (right, up) = (xyz(rays.right), xyz(rays.up));
+            let (right, up) = (rays.right, rays.up);
             assert!(right.is_normalized() && up.is_normalized(), "{sun}");
             assert!(right.dot(up).abs() + right.dot(sun).abs() + up.dot(sun).abs() < 1e-5);
             assert!(up.y >= -1e-6 && right.y.abs() < 1e-6, "{sun}: {right} {up}");
@@ -266,7 +282,7 @@ mod tests {
     fn they_rise_with_the_sun_and_are_not_drawn_where_they_do_not_reach() {
         let strength = |sine: f32| {
             let sun = Vec3::new(0.0, sine, -(1.0 - sine * sine).sqrt());
-            at(sun, 0.0).sun[3]
+            at(sun, 0.0).opacity
         };
         assert_eq!(
             [strength(-0.2), strength(-0.09), strength(0.5)],
@@ -275,8 +291,8 @@ mod tests {
         let steps = (-100..100).map(|i| [i, i + 1].map(|i| strength(i as f32 * 1e-3)));
         assert!(steps.clone().all(|[a, b]| b >= a && b - a < 0.02));
         // 53 degrees away from an axis that is 37 degrees up, and its corners are 31 degrees from it.
-        assert!(at(LIGHT.sun_direction, 1.0).sun[3] > 0.0);
-        assert_eq!(at(LIGHT.sun_direction, std::f32::consts::PI).sun[3], 0.0);
+        assert!(at(LIGHT.sun_direction, 1.0).opacity > 0.0);
+        assert_eq!(at(LIGHT.sun_direction, std::f32::consts::PI).opacity, 0.0);
         // Whatever a screen shows within reach is drawn.
         for turn in 0..64 {
             let azimuth = turn as f32 / 64.0 * std::f32::consts::TAU;
@@ -285,7 +301,7 @@ mod tests {
             let mut directions = points
                 .map(|(x, y)| (screen.forward + screen.right * x + screen.up * y).normalize());
             if directions.any(|d| d.distance(LIGHT.sun_direction) < REACH) {
-                assert!(at(LIGHT.sun_direction, azimuth).sun[3] > 0.0, "{turn}");
+                assert!(at(LIGHT.sun_direction, azimuth).opacity > 0.0, "{turn}");
             }
         }
     }

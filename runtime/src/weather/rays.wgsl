@@ -1,19 +1,12 @@
 // Crepuscular rays: shafts of light and shade from the sun through the clouds. Theory and CPU part: rays.rs.
-struct RayUniforms {
-    sun: vec4f,    // xyz: unit direction towards the sun; w: opacity of the strongest ray
-    right: vec4f,  // xyz: unit vector across it, along the horizon
-    up: vec4f,     // xyz: the third one, away from the horizon
-    bright: vec4f, // rgb: radiance of haze in the light; w: halvings of the rays by a chord of 1
-    dark: vec4f,   // rgb: radiance of haze in the shade; w: 1 / a pixel in the middle of the screen, in radians
-}
 
 // The direction of a place in the maps: x goes once around the sun, y away from it.
 fn rays_direction(place: vec2f) -> vec3f {
     let rays = uniforms.rays;
     let chord = place.y * RAYS_REACH;
     let angle = TAU * place.x;
-    let around = rays.right.xyz * cos(angle) + rays.up.xyz * sin(angle);
-    return rays.sun.xyz * (1.0 - 0.5 * chord * chord) + around * (chord * sqrt(1.0 - 0.25 * chord * chord));
+    let around = rays.right * cos(angle) + rays.up * sin(angle);
+    return rays.sun_direction * (1.0 - 0.5 * chord * chord) + around * (chord * sqrt(1.0 - 0.25 * chord * chord));
 }
 
 // How much of the sun's light comes through: x: what the clouds leave, y: of how much, both 0 below the horizon.
@@ -26,7 +19,7 @@ fn fs_rays_mask(@builtin(position) position: vec4f) -> @location(0) vec4f {
     }
     // In the detail of the longer side of the texel, whatever the screen's.
     let texel = max(RAYS_TEXEL.x * place.y, RAYS_TEXEL.y);
-    let left = 1.0 - cloud_layer(direction, texel * uniforms.rays.dark.w).a;
+    let left = 1.0 - cloud_layer(direction, texel * uniforms.rays.pixels_per_rad).a;
     return vec4f(vec2f(left, 1.0) * smoothstep(0.0, RAYS_HORIZON, direction.y), 0.0, 0.0);
 }
 
@@ -73,18 +66,18 @@ fn fs_rays_streaks(@builtin(position) position: vec4f) -> @location(0) vec4f {
 fn fs_rays(in: Varyings) -> @location(0) vec4f {
     let rays = uniforms.rays;
     let direction = in.ray * inverseSqrt(dot(in.ray, in.ray));
-    let away = direction - rays.sun.xyz;
+    let away = direction - rays.sun_direction;
     let chord = length(away);
     if chord >= RAYS_REACH {
         return vec4f(0.0);
     }
-    let angle = atan2(dot(away, rays.up.xyz), dot(away, rays.right.xyz));
+    let angle = atan2(dot(away, rays.up), dot(away, rays.right));
     let half_row = 0.5 / RAYS_SIZE.y;
     let place = vec2f(angle / TAU, clamp(chord / RAYS_REACH, half_row, 1.0 - half_row));
     let streak = (textureSampleLevel(map_texture, repeat_sampler, place, 0.0).r * 255.0 - 128.0) / 127.0;
     let ends = smoothstep(0.0, RAYS_CORE, chord) * (1.0 - smoothstep(0.5 * RAYS_REACH, RAYS_REACH, chord));
     let ground = smoothstep(-RAYS_GROUND, 0.0, direction.y);
-    let colour = select(rays.dark.rgb, rays.bright.rgb, streak > 0.0);
-    let opacity = rays.sun.w * exp2(-rays.bright.w * chord) * ends * ground * abs(streak);
+    let colour = select(rays.dark, rays.bright, streak > 0.0);
+    let opacity = rays.opacity * exp2(-rays.fall * chord) * ends * ground * abs(streak);
     return vec4f(finish(colour, in.position.xy).rgb, opacity);
 }

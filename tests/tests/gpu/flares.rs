@@ -143,9 +143,10 @@ fn on_an_edge(flares: &FlareUniforms, pixel: usize, [width, height]: [u32; 2]) -
         (pixel as u32 % width) as f32 + 0.5,
         (pixel as u32 / width) as f32 + 0.5,
     );
-    flares.places.iter().any(|&[x, y, half_x, half_y]| {
+    flares.squares.iter().any(|square| {
+        let Vec2 { x, y } = square.position;
         let from_square = middle - (Vec2::new(x, -y) * 0.5 + 0.5) * size;
-        let to_edge = from_square.abs() - Vec2::new(half_x, half_y) * 0.5 * size;
+        let to_edge = from_square.abs() - square.half_size * 0.5 * size;
         to_edge.abs().min_element() < 1.0 / 128.0
     })
 }
@@ -305,7 +306,7 @@ fn it_fades_where_the_sun_goes_out_of_view_and_as_it_sets() {
             .frame_without_map(params, view, 0.0)
             .uniforms
             .flares
-            .light[0]
+            .strength
     };
     let mut last = f32::INFINITY;
     for below in [-0.40, -0.47, -0.48, -0.49, -0.495, -0.501] {
@@ -379,7 +380,7 @@ fn it_falls_as_a_cloud_crosses_the_sun() {
             .frame_without_map(&params, &view, 0.0)
             .uniforms;
         let pixel = 2.0 * (0.13_f32 / 2.0).tan() / side as f32;
-        let away = (uniforms.flares.light[1] / pixel).round() as usize;
+        let away = (uniforms.flares.sun_radius / pixel).round() as usize;
         let (mut least, mut most) = (f32::MAX, f32::MIN);
         for i in 0..60 {
             let seconds = f64::from(i) * 2.0;

@@ -279,7 +279,7 @@ fn repacks(facts: &PackData, from: f32, to: f32) -> Vec<[f32; 2]> {
             time,
             ..SkyParams::default()
         };
-        facts.uniforms(&params, &view(), 0.0, 0.0).fbm.step
+        facts.uniforms(&params, &view(), 0.0, 0.0).fbm.sun_step
     };
     let mut found = Vec::new();
     let steps = 400;

@@ -156,11 +156,11 @@ fn what_falls_on_a_cloud_is_equation_3() {
             };
             // Turned as the layer, and as flat as the kind's relief.
             let lit = uniforms(&pack, &params);
-            let [.., grain, relief] = lit.layers[0].facing;
-            assert_eq!(grain, 0.0);
-            let [east_u, east_v, ..] = lit.layers[0].axes;
-            let turned = Vec2::new(east_u, -east_v).normalize();
-            let across = relief * turned.rotate(normal);
+            let layer = lit.layers[0];
+            assert_eq!(layer.grain, 0.0);
+            let Vec2 { x, y } = layer.east_axis;
+            let turned = Vec2::new(x, -y).normalize();
+            let across = layer.relief * turned.rotate(normal);
             let upwards = (1.0 - across.length_squared()).sqrt();
             let normal = Vec3::new(across.x, upwards, across.y);
             let expected = normal.dot(sun(&pack, time)).max(0.0);
@@ -178,7 +178,7 @@ fn what_falls_on_a_cloud_is_equation_3() {
             for [seen, off] in quotients(&none, &added, &black).into_iter().flatten() {
                 // Bytes of a normal's part, in two reads of the pack, the map and its read: three, rounded up. A difference of
                 // half floats is off by both.
-                let bytes = 3.0 * 2.0 / 255.0 * relief * 2.0_f32.sqrt();
+                let bytes = 3.0 * 2.0 / 255.0 * layer.relief * 2.0_f32.sqrt();
                 let bound = bytes * (1.0 + across.length() / upwards) + 3.0 * off;
                 assert!(
                     (seen - expected).abs() < bound,
@@ -379,7 +379,7 @@ fn a_cloud_is_shaded_by_what_is_between_it_and_the_sun() {
         };
         params.lit.formation_interval_s = 86_400.0;
         let lit = uniforms(&stripe, &params);
-        let [step, ..] = lit.layers[0].sun;
+        let step = lit.layers[0].blur_step;
         // As wide as the stripe is surely in sight.
         let view = overhead(2.4);
         let light = draw(
@@ -390,12 +390,10 @@ fn a_cloud_is_shaded_by_what_is_between_it_and_the_sun() {
         );
         let map = gpu::read_map(&sky)[0].levels()[0].clone();
         let own = |plane: Vec2| {
-            let [east_u, east_v, south_u, south_v] = lit.layers[0].axes;
-            let [x, y, ..] = lit.layers[0].place;
-            let u = east_u * plane.x + south_u * plane.y + x;
-            let v = east_v * plane.x + south_v * plane.y + y;
+            let layer = lit.layers[0];
+            let uv = layer.east_axis * plane.x + layer.south_axis * plane.y + layer.offset;
             let texel = |c: f32| (c.rem_euclid(1.0) * map.width as f32) as u32 % map.width;
-            map.texel(texel(u), texel(v))[3]
+            map.texel(texel(uv.x), texel(uv.y))[3]
         };
         // Thin places: those with a thick one on the way to the sun are darker than those with one as far the other way.
         let (mut shaded, mut free) = (Vec::new(), Vec::new());
@@ -431,9 +429,7 @@ fn the_sun_sets_red_and_the_moon_takes_over() {
         let mut params = one(LayerKind::Stratocumulus);
         (params.time, params.lit.moon) = (time, moon);
         let lit = uniforms(pack, &params);
-        let [red, green, blue, _] = lit.light;
-        let towards = Vec3::new(lit.towards[0], lit.towards[1], lit.towards[2]);
-        (Vec3::new(red, green, blue), towards)
+        (lit.light, lit.light_direction)
     };
     let mut last = 0.0;
     // Below 6 degrees the clouds' own air mass ends the reddening.

@@ -1,6 +1,6 @@
 //! Clouds change their shapes, and never jump.
 
-use glam::Vec3Swizzles;
+use glam::{Vec2, Vec3Swizzles, Vec4Swizzles};
 use welkin_runtime::frame::Uniforms;
 use welkin_runtime::pack_data::PackData;
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
@@ -119,11 +119,14 @@ fn shapes_change_however_the_map_is_shifted() {
 fn offsets(method: Method, uniforms: &Uniforms) -> Vec<f32> {
     match method {
         Method::Packed | Method::Sprites => {
-            [&uniforms.packed.photo[1..3], &uniforms.packed.noise[2..]].concat()
+            let packed = &uniforms.packed;
+            [packed.photo_offset, packed.noise_offset]
+                .map(|offset| offset.to_array())
+                .concat()
         }
-        Method::Octaves => uniforms.octaves.low.place[..2].to_vec(),
-        Method::Fbm => uniforms.fbm.offsets_a.to_vec(),
-        Method::Lit => uniforms.lit.layers[0].place[..2].to_vec(),
+        Method::Octaves => uniforms.octaves.low.offset.to_array().to_vec(),
+        Method::Fbm => uniforms.fbm.offsets[0].to_array().to_vec(),
+        Method::Lit => uniforms.lit.layers[0].offset.to_array().to_vec(),
     }
 }
 
@@ -156,15 +159,12 @@ fn wraps(facts: &PackData, params: &SkyParams) -> Vec<f64> {
 
 /// The farthest that anything in the layer moves from one moment to another, in heights of the layer.
 fn way(method: Method, from: &Uniforms, to: &Uniforms) -> f32 {
-    let apart = |a: &[f32], b: &[f32]| {
-        let turn = |a: f32, b: f32| (b - a) - (b - a).round();
-        turn(a[0], b[0]).hypot(turn(a[1], b[1]))
-    };
+    let apart = |a: Vec2, b: Vec2| ((b - a) - (b - a).round()).length();
     match method {
         Method::Packed | Method::Sprites => {
             let (a, b) = (&from.packed, &to.packed);
-            let photo = apart(&a.photo[1..], &b.photo[1..]) / a.photo[0];
-            let noise = apart(&a.noise[2..], &b.noise[2..]) / a.noise[0].hypot(a.noise[1]);
+            let photo = apart(a.photo_offset, b.photo_offset) / a.photo_scale;
+            let noise = apart(a.noise_offset, b.noise_offset) / a.noise_rotation.length();
             photo.max(noise)
         }
         Method::Octaves => {
@@ -176,29 +176,23 @@ fn way(method: Method, from: &Uniforms, to: &Uniforms) -> f32 {
             domes
                 .map(|(a, b)| {
                     // The shorter axis is the one along which a step of uv is most.
-                    let [east, south] = [a.axes[0].hypot(a.axes[1]), a.axes[2].hypot(a.axes[3])];
-                    apart(&a.place, &b.place) / east.min(south)
+                    let [east, south] = [a.east_axis, a.south_axis].map(Vec2::length);
+                    apart(a.offset, b.offset) / east.min(south)
                 })
                 .fold(0.0, f32::max)
         }
         Method::Fbm => {
-            let offsets = |uniforms: &Uniforms| {
-                let fbm = uniforms.fbm;
-                [fbm.offsets_a, fbm.offsets_b, fbm.offsets_c, fbm.offsets_d]
-            };
-            let tiles_a_height = from.fbm.axes[0].hypot(from.fbm.axes[1]);
-            let (before, after) = (offsets(from), offsets(to));
-            let pairs = before
-                .as_flattened()
-                .chunks(2)
-                .zip(after.as_flattened().chunks(2));
-            pairs.map(|(a, b)| apart(a, b)).fold(0.0, f32::max) / tiles_a_height
+            let pairs = from.fbm.offsets.iter().zip(&to.fbm.offsets);
+            pairs
+                .map(|(a, b)| apart(a.xy(), b.xy()).max(apart(a.zw(), b.zw())))
+                .fold(0.0, f32::max)
+                / from.fbm.east_axis.length()
         }
         Method::Lit => {
             let pairs = from.lit.layers.iter().zip(&to.lit.layers);
-            let layers = pairs.take(from.lit.dome[2] as usize);
+            let layers = pairs.take(from.lit.count as usize);
             layers
-                .map(|(a, b)| apart(&a.place, &b.place) / a.axes[0].hypot(a.axes[1]))
+                .map(|(a, b)| apart(a.offset, b.offset) / a.east_axis.length())
                 .fold(0.0, f32::max)
         }
     }

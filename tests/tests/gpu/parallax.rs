@@ -276,10 +276,10 @@ fn offset(params: &SkyParams, east_m: f64) -> f32 {
     view.position_m.x = east_m as f32;
     let uniforms = facts.uniforms(params, &view, 40.0, 0.0);
     match params.method {
-        Method::Packed | Method::Sprites => uniforms.packed.photo[1],
-        Method::Octaves => uniforms.octaves.low.place[0],
-        Method::Fbm => uniforms.fbm.place[0],
-        Method::Lit => uniforms.lit.layers[0].place[0],
+        Method::Packed | Method::Sprites => uniforms.packed.photo_offset.x,
+        Method::Octaves => uniforms.octaves.low.offset.x,
+        Method::Fbm => uniforms.fbm.offset.x,
+        Method::Lit => uniforms.lit.layers[0].offset.x,
     }
 }
 

@@ -11,7 +11,7 @@ use welkin_runtime::{Camera, LitLayer, LitParams, Method, Sky, SkyParams};
 use welkin_tests::film::Film;
 use welkin_tests::renderer::{Frame, Twin};
 use welkin_tests::texture::Texture;
-use welkin_tests::{gpu, pack, shadow, xyz};
+use welkin_tests::{gpu, pack, shadow};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
@@ -83,11 +83,8 @@ impl Shadows {
 /// the finer read makes of it, `z + s (r - 1/2) z (1 - z)`, whose slopes are at most `1 + s/2` and `s/4`.
 fn worth_of_a_step(frame: &Frame) -> f32 {
     let lit = &frame.uniforms.lit;
-    let layers = lit.layers.iter().take(lit.dome[2] as usize);
-    layers
-        .map(|layer| 1.0 + 0.75 * layer.facing[2])
-        .sum::<f32>()
-        / 255.0
+    let layers = lit.layers.iter().take(lit.count as usize);
+    layers.map(|layer| 1.0 + 0.75 * layer.grain).sum::<f32>() / 255.0
 }
 
 /// Times of the day: noon, a sun at 12 degrees, a moon.
@@ -110,7 +107,7 @@ fn a_shadow_is_what_clouds_hide_of_the_sun_there() {
         ] {
             let params = params(time, 1000.0);
             let frame = twin.frame_without_map(&params, &viewer(place_m, Vec3::Y), seconds);
-            let towards = xyz(frame.uniforms.lit.towards);
+            let towards = frame.uniforms.lit.light_direction;
             assert!(towards.y > 0.0, "{name}: {towards}");
             gpu::prepare(&mut sky, &params, &viewer(place_m, Vec3::Y), seconds);
             let shadows = Shadows::of(&sky);

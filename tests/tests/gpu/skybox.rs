@@ -136,7 +136,7 @@ fn gpu_and_cpu_agree_on_noise_at_every_level() {
             // Weights of 8 bits on two axes and between levels are off by a 512th each of the range of 1, in
             // colour and cover; the sky behind and the result are half floats.
             let difference = compare::difference(&expected, &actual, |e| 6.0 / 512.0 + e / 512.0);
-            println!("{side} {name} level {}: {difference:?}", uniforms.mix[1]);
+            println!("{side} {name} level {}: {difference:?}", uniforms.lod);
             assert!(difference.worst <= 1.0, "{side} {name}: {difference:?}");
         }
     }

@@ -42,7 +42,7 @@ fn all_stars(pack: &Pack, level: usize) -> Vec<(Vec3, StarTexel)> {
 /// Light of a star in the green channel, as it stands in its record, seen through the horizon's air.
 fn green(uniforms: &Uniforms, star: StarTexel, direction: Vec3, seconds: f64) -> f64 {
     let tint = WARM.lerp(COLD, star.phase).y;
-    let light = intensity(star, seconds) * f64::from(uniforms.stars.field[3] * tint);
+    let light = intensity(star, seconds) * f64::from(uniforms.stars.brightness * tint);
     light * f64::from(smoothstep(0.0, EXTINCTION, direction.y))
 }
 
@@ -100,7 +100,7 @@ fn total_light_is_that_of_the_records_during_a_slow_pan() {
                     size,
                 );
                 let uniforms = facts.uniforms(&night(), &camera, 10.0, 0.0);
-                let expected: f64 = all_stars(&pack, uniforms.stars.field[0] as usize)
+                let expected: f64 = all_stars(&pack, uniforms.stars.level as usize)
                     .iter()
                     .filter(|(d, _)| d.dot(camera.rays().forward) > 0.0)
                     .map(|&(d, star)| {
@@ -169,8 +169,8 @@ fn density_over_elevation_is_even() {
     for (azimuth, elevation) in faces {
         let view = Camera::looking(azimuth, elevation, quarter, size);
         let uniforms = facts.uniforms(&night(), &view, 0.0, 0.0);
-        assert_eq!(uniforms.stars.field[0], 0.0, "the records are read");
-        let one = f64::from(uniforms.stars.field[3] * WARM.y);
+        assert_eq!(uniforms.stars.level, 0.0, "the records are read");
+        let one = f64::from(uniforms.stars.brightness * WARM.y);
         for (index, texel) in gpu::render(&mut sky, FORMAT, &night(), &view, 0.0)
             .iter()
             .enumerate()
@@ -244,7 +244,7 @@ fn even_stars_give_the_same_light_wherever_they_are_on_a_wide_picture() {
             let uniforms = facts.uniforms(&params, &view, 10.0, 0.0);
             let texels = gpu::render(&mut sky, FORMAT, &params, &view, 10.0);
             let middle_sr = 4.0 / f64::from(size[0] * size[1]);
-            let records = all_stars(&pack, uniforms.stars.field[0] as usize);
+            let records = all_stars(&pack, uniforms.stars.level as usize);
             let expected: f64 = records
                 .iter()
                 .map(|&(d, star)| green(&uniforms, star, d, 10.0))

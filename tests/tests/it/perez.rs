@@ -10,8 +10,8 @@ use welkin_runtime::clear_sky::perez::{Distribution, LEAST_COSINE};
 use welkin_runtime::pack_data::PackData;
 use welkin_runtime::params::{CUSTOM, TURBIDITY};
 use welkin_runtime::{PerezParams, PerezShape};
+use welkin_tests::pack;
 use welkin_tests::perez::{colour, direction, hemisphere, linear, overhead, time_of, uniforms};
-use welkin_tests::{pack, xyz};
 
 fn shapes() -> Vec<PerezShape> {
     let standard = (1..=cie::SKIES.len() as u8).map(PerezShape::Cie);
@@ -68,7 +68,7 @@ fn luminance_is_the_printed_equation() {
         for elevation_deg in [0.0_f32, 15.0, 50.0, 90.0] {
             let shape = PerezShape::Cie(index as u8 + 1);
             let frame = uniforms(&facts, shape, 2.5, time_of(elevation_deg));
-            let sun = xyz(frame.perez.sun);
+            let sun = frame.perez.sun_direction;
             let zenith = colour(&frame.perez, Vec3::Y).x;
             let numbers = standard.numbers.map(f64::from);
             let sun_zenith = f64::from(sun.angle_between(Vec3::Y));
@@ -96,7 +96,7 @@ fn the_skies_on_both_sides_of_the_suns_meridian_are_mirror_images() {
     for shape in shapes() {
         for time in [0.3, 0.45, 0.6, 0.74] {
             let perez = uniforms(&facts, shape, 3.0, time).perez;
-            let sun = xyz(perez.sun);
+            let sun = perez.sun_direction;
             let across = Vec3::new(sun.z, 0.0, -sun.x).normalize();
             for towards in hemisphere(16, 16) {
                 let mirrored = towards - 2.0 * towards.dot(across) * across;
@@ -125,7 +125,7 @@ fn clear_skies_are_brightest_near_the_sun() {
             let brightest = hemisphere(180, 360)
                 .max_by(|a, b| bright(a).total_cmp(&bright(b)))
                 .unwrap();
-            let apart = brightest.angle_between(xyz(perez.sun)).to_degrees();
+            let apart = brightest.angle_between(perez.sun_direction).to_degrees();
             // The uppermost ring stands 4.3 degrees from the zenith; types 14 and 15 peak 2.4 degrees under a low sun.
             assert!(
                 apart < 5.0,
@@ -145,7 +145,7 @@ fn every_sky_with_an_aureole_is_brightest_on_the_suns_side() {
         }
         for time in [0.3, 0.45, 0.7] {
             let perez = uniforms(&facts, shape, 2.5, time).perez;
-            let sun = xyz(perez.sun);
+            let sun = perez.sun_direction;
             let azimuth = sun.x.atan2(-sun.z);
             for sin_elevation in [0.0, 0.2, 0.5, 0.9] {
                 let of = |turn: f32| colour(&perez, direction(azimuth + turn, sin_elevation)).x;

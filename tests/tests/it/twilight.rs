@@ -41,7 +41,7 @@ fn moment(
         let seen = |d: &Vec3| sky::radiance(frame, texture, *d);
         directions.iter().map(seen).collect::<Vec<_>>()
     };
-    let perez = |d: &Vec3| match frame.perez.sun[3] {
+    let perez = |d: &Vec3| match frame.perez.weight {
         0.0 => 0.0,
         _ => linear(colour(&frame.perez, *d)).max_element(),
     };

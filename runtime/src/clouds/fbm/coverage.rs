@@ -20,10 +20,9 @@ pub(crate) fn sums(texture: &Texture) -> Histogram {
 
 /// The share of places with more than this opacity.
 pub(crate) fn covered(sums: &Histogram, fbm: &FbmUniforms, opacity: f32) -> f32 {
-    let [m, n, ..] = fbm.remap;
     let cover = FULL * before_smoothstep(opacity);
     sums.mean(|finer| {
-        let rough = 4.0 * fbm.shaded[3] * (finer - fbm.step[2]);
-        sums.above((before_roughening(cover, rough) - n) / m)
+        let rough = 4.0 * fbm.roughness * (finer - fbm.mean);
+        sums.above((before_roughening(cover, rough) - fbm.intercept) / fbm.slope)
     })
 }

@@ -18,6 +18,7 @@
 //! # Practice
 //! 512x512 texels, one bilinear read an octave. Channels: R the shade, G the sum, A the cover.
 
+use glam::Vec2;
 use welkin_pack::Texture;
 
 use crate::clouds::fbm::pack;
@@ -31,6 +32,7 @@ pub const PART: Part = Part {
         ("FBM_ABSORPTION", Value::F32(ABSORPTION)),
         ("FBM_DEPTHS", Value::Vec4(DEPTHS)),
     ],
+    structs: &[],
     wgsl: include_str!("map.wgsl"),
 };
 
@@ -60,6 +62,9 @@ const AXES: [[f64; 2]; MAX_OCTAVES] = [
     [0.0, 1.0],
     [-1.0, 0.0],
 ];
+
+/// How far apart octaves start, in tiles: any numbers by which no lattice points of theirs coincide.
+const STARTS_APART: [f64; 2] = [0.137, 0.291];
 
 /// What the runtime keeps of the pack's octaves: mean and standard deviation of each.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -112,8 +117,7 @@ pub fn offsets(way: f64) -> [[f32; 2]; MAX_OCTAVES] {
     let mut offsets = [[0.0; 2]; MAX_OCTAVES];
     for (k, (offset, axis)) in offsets.iter_mut().zip(AXES).enumerate() {
         let gone = way * (1.0 + VELOCITY[1] / VELOCITY[0] * k as f64);
-        // Octaves start apart, so that no lattice points of theirs coincide.
-        let start = [0.137 * k as f64, 0.291 * k as f64];
+        let start = STARTS_APART.map(|apart| apart * k as f64);
         *offset = [0, 1].map(|i| {
             let place = start[i] - axis[i] * gone;
             (place - place.floor()) as f32
@@ -158,7 +162,7 @@ impl Pass {
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         shared: &wgpu::BindGroup,
-        step: [f32; 2],
+        step: Vec2,
     ) {
         self.packing.record(encoder, shared, step);
         self.map

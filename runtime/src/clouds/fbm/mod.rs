@@ -20,12 +20,12 @@ pub mod coverage;
 pub mod map;
 pub mod pack;
 
-use bytemuck::{Pod, Zeroable};
-use glam::{DMat2, DVec2, Vec3};
+use glam::{DMat2, DVec2, Vec2, Vec3, Vec4};
 
 use crate::clouds::shared::{CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, closing, offset};
-use crate::geometry::math::{normal_share, vec4};
+use crate::geometry::math::normal_share;
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
 
 /// Its part of the shader.
@@ -37,37 +37,50 @@ pub const PART: Part = Part {
         ("FBM_FULL", Value::F32(FULL)),
         ("FBM_FINER_START", Value::Vec2(FINER_START)),
     ],
+    structs: &[FbmUniforms::WGSL],
     wgsl: include_str!("fbm.wgsl"),
 };
 
-/// Clouds of the fbm method.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct FbmUniforms {
-    /// xy: what a height to the east, zw: to the south adds to uv.
-    pub axes: [f32; 4],
-    /// xy: offset; z: level of detail at distance 1.
-    pub place: [f32; 4],
-    /// x: m; y: n; z: octaves; w: texels a side of the map.
-    pub remap: [f32; 4],
-    /// rgb: the lit colour; w: what the shade is multiplied by.
-    pub lit: [f32; 4],
-    /// rgb: the shaded colour; w: share of the finer read.
-    pub shaded: [f32; 4],
-    /// xy: a step of the ray towards the sun, in tiles; z: mean of the sum of octaves; w: n for the ray's heights.
-    pub step: [f32; 4],
-    /// Offsets of octaves 1 and 2.
-    pub offsets_a: [f32; 4],
-    /// 3 and 4.
-    pub offsets_b: [f32; 4],
-    /// 5 and 6.
-    pub offsets_c: [f32; 4],
-    /// 7 and 8.
-    pub offsets_d: [f32; 4],
-    /// Weights of octaves 1 to 4.
-    pub weights_a: [f32; 4],
-    /// 5 to 8.
-    pub weights_b: [f32; 4],
+uniforms! {
+    /// Clouds of the fbm method.
+    FbmUniforms {
+        /// What a height to the east adds to uv.
+        east_axis: Vec2,
+        /// What a height to the south adds to uv.
+        south_axis: Vec2,
+        /// Where the map lies.
+        offset: Vec2,
+        /// Level of detail at distance 1.
+        lod_bias: f32,
+        /// Nothing.
+        _pad: f32,
+        /// The article's m: what the sum of octaves is multiplied by.
+        slope: f32,
+        /// The article's n: what is added then.
+        intercept: f32,
+        /// How many octaves are summed.
+        count: f32,
+        /// Texels a side of the map.
+        resolution: f32,
+        /// The lit colour, a reflectance.
+        lit: Vec3,
+        /// What the shade is multiplied by.
+        shade_strength: f32,
+        /// The shaded colour, a reflectance.
+        shaded: Vec3,
+        /// How much the finer read roughens edges.
+        roughness: f32,
+        /// A step of the ray towards the sun, in tiles.
+        sun_step: Vec2,
+        /// Mean of the sum of octaves.
+        mean: f32,
+        /// n for the heights along the ray.
+        ray_intercept: f32,
+        /// Where octaves lie, two a vector.
+        offsets: [Vec4; 4],
+        /// Weights of octaves, four a vector.
+        weights: [Vec4; 2],
+    }
 }
 
 /// How much finer the second read of the map is. A whole number: offsets are reduced by whole tiles.
@@ -77,6 +90,10 @@ pub const FINER_START: [f32; 2] = [0.13, 0.57];
 
 /// The cover in the map at which the sky is full: above it clouds are opaque, whatever their height.
 pub const FULL: f32 = 0.62;
+/// How strong the shade is at density 0 and 1. Chosen by eye, as is the next one.
+const SHADE: [f32; 2] = [0.85, 1.1];
+/// How much the finer read roughens edges.
+const ROUGHNESS: f32 = 0.9;
 /// How much the finer read changes the shade where the sky is full.
 pub const ROUGH_SHADE: f32 = 0.9;
 
@@ -104,37 +121,32 @@ pub fn uniforms(
     let own = params.fbm;
     let tile = TILE[0] + (TILE[1] - TILE[0]) * f64::from(params.height);
     let axes = DMat2::from_angle(TURN) * (1.0 / tile);
-    let [x, y] = offset(START + axes * view.place(LOW_HEIGHT_M));
     let near = view.distance(LOW_HEIGHT_M);
     let texels_a_height = f64::from(map::SIDE) / tile * near;
     // Tiles that the slowest octave goes.
     let way = MAX_WIND * f64::from(params.speed) * view.seconds / tile;
-    let offsets = map::offsets(way);
-    let weights = map::weights(octaves);
     let (mean, spread) = map::mean_and_spread(octaves);
-    let [m, n, n_of_ray] = remap(params.cover, own.sharpness, mean, spread);
-    let step = pack::step(sun, TURN);
-    let pair = |k: usize| {
-        [
-            offsets[k][0],
-            offsets[k][1],
-            offsets[k + 1][0],
-            offsets[k + 1][1],
-        ]
-    };
+    let [slope, intercept, ray_intercept] = remap(params.cover, own.sharpness, mean, spread);
+    let seen = axes * near;
     FbmUniforms {
-        axes: (axes * near).to_cols_array().map(|v| v as f32),
-        place: [x, y, view.level(texels_a_height), 0.0],
-        remap: [m, n, octaves.count() as f32, map::SIDE as f32],
-        lit: vec4(Vec3::from(own.lit), 0.85 + 0.25 * params.density),
-        shaded: vec4(Vec3::from(own.shaded), 0.9),
-        step: [step[0], step[1], mean, n_of_ray],
-        offsets_a: pair(0),
-        offsets_b: pair(2),
-        offsets_c: pair(4),
-        offsets_d: pair(6),
-        weights_a: [weights[0], weights[1], weights[2], weights[3]],
-        weights_b: [weights[4], weights[5], weights[6], weights[7]],
+        east_axis: seen.x_axis.as_vec2(),
+        south_axis: seen.y_axis.as_vec2(),
+        offset: offset(START + axes * view.place(LOW_HEIGHT_M)),
+        lod_bias: view.level(texels_a_height),
+        slope,
+        intercept,
+        count: octaves.count() as f32,
+        resolution: map::SIDE as f32,
+        lit: Vec3::from(own.lit),
+        shade_strength: SHADE[0] + (SHADE[1] - SHADE[0]) * params.density,
+        shaded: Vec3::from(own.shaded),
+        roughness: ROUGHNESS,
+        sun_step: pack::step(sun, TURN),
+        mean,
+        ray_intercept,
+        offsets: bytemuck::cast(map::offsets(way)),
+        weights: bytemuck::cast(map::weights(octaves)),
+        ..Default::default()
     }
 }
 
@@ -167,16 +179,15 @@ fn normal_quantile(share: f32) -> f32 {
 
 /// Radiance of a shut sky far away: every height along the ray is the mean one.
 pub fn overcast(fbm: &FbmUniforms, clouds: &CloudUniforms) -> Vec3 {
-    let xyz = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
-    let height = fbm.remap[0] * fbm.step[2] + fbm.step[3];
+    let height = fbm.slope * fbm.mean + fbm.ray_intercept;
     let inside = map::DEPTHS
         .iter()
         .map(|depth| (height - depth).max(0.0))
         .sum::<f32>()
         / 4.0;
-    let shade = fbm.lit[3] * (1.0 - (-map::ABSORPTION * inside).exp2());
-    let colour = xyz(fbm.lit).lerp(xyz(fbm.shaded), shade.clamp(0.0, 1.0));
-    colour * (xyz(clouds.sunlight) + xyz(clouds.ambient))
+    let shade = fbm.shade_strength * (1.0 - (-map::ABSORPTION * inside).exp2());
+    let colour = fbm.lit.lerp(fbm.shaded, shade.clamp(0.0, 1.0));
+    colour * (clouds.sunlight + clouds.ambient)
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@
 //! Four bilinear reads a texel and layer, every ten seconds or so when a day takes a day. What is packed follows from the sun's
 //! direction alone, never from where it was before.
 
-use glam::{DVec2, Vec3};
+use glam::{DVec2, Vec2, Vec3};
 
 use crate::device::layouts::Layouts;
 use crate::device::map;
@@ -24,6 +24,7 @@ use crate::geometry::part::Part;
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[],
+    structs: &[],
     wgsl: include_str!("pack.wgsl"),
 };
 
@@ -43,13 +44,12 @@ pub const STEP_TILES: f64 = 1.0 / welkin_pack::mapping::FBM_STEPS_A_TILE as f64;
 const LONGEST_STEP_TILES: f64 = 1.0 / 26.0;
 
 /// A step towards the sun in tiles of the map, which is turned by `turn_rad`.
-pub fn step(sun: Vec3, turn_rad: f64) -> [f32; 2] {
+pub fn step(sun: Vec3, turn_rad: f64) -> Vec2 {
     let [azimuth, elevation] = cell(sun).map(|cell| (f64::from(cell) + 0.5) * CELL_RAD);
     let length = (STEP_TILES / elevation.max(0.01).tan()).clamp(0.0, LONGEST_STEP_TILES);
     // East and south of an azimuth that goes from north towards east.
     let towards = DVec2::new(azimuth.sin(), -azimuth.cos());
-    let step = DVec2::from_angle(turn_rad).rotate(towards) * length;
-    [step.x as f32, step.y as f32]
+    (DVec2::from_angle(turn_rad).rotate(towards) * length).as_vec2()
 }
 
 /// The cell of azimuth and elevation in which the sun stands.
@@ -69,7 +69,7 @@ pub(crate) struct Pass {
     source: wgpu::BindGroup,
     pipeline: wgpu::RenderPipeline,
     /// The step that the channels hold now.
-    packed_for: Option<[f32; 2]>,
+    packed_for: Option<Vec2>,
 }
 
 impl Pass {
@@ -111,7 +111,7 @@ impl Pass {
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         shared: &wgpu::BindGroup,
-        step: [f32; 2],
+        step: Vec2,
     ) {
         if self.packed_for == Some(step) {
             return;
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn the_packs_own_channels_are_for_a_sun_in_the_east_at_45_degrees() {
-        let [x, y] = step(sun(90.0, 45.1), 0.0).map(f64::from);
+        let [x, y] = step(sun(90.0, 45.1), 0.0).as_dvec2().to_array();
         // Half a cell is 0.25 degrees: a turn by it, and the cotangent's change.
         assert!(
             (x - STEP_TILES).abs() < 0.01 * STEP_TILES && y.abs() < 0.01 * STEP_TILES,
@@ -148,7 +148,7 @@ mod tests {
     fn steps_point_to_the_sun_and_shrink_as_it_rises() {
         let mut last = f32::INFINITY;
         for elevation in [-20.0, 0.0, 15.0, 30.0, 60.0, 85.0] {
-            let [x, y] = step(sun(180.0, elevation), 0.0);
+            let Vec2 { x, y } = step(sun(180.0, elevation), 0.0);
             assert!(y > 0.0 && x.abs() < 0.01 * y, "south at {elevation}");
             assert!(y <= last, "{elevation}");
             last = y;
@@ -161,7 +161,7 @@ mod tests {
         assert_eq!(at(120.01), at(120.05));
         assert_ne!(at(120.01), at(120.07));
         // A turn by one cell moves the third step by 3 cells of angle times its length.
-        let [a, b] = [at(120.01), at(120.07)].map(|s| DVec2::new(f64::from(s[0]), f64::from(s[1])));
+        let [a, b] = [at(120.01), at(120.07)].map(|step| step.as_dvec2());
         assert!((a - b).length() < 1.01 * CELL_RAD * a.length());
     }
 }

@@ -2,7 +2,7 @@
 @fragment
 fn fs_fbm_pack(map: MapVaryings) -> @location(0) vec4f {
     let uv = map.position.xy / vec2f(textureDimensions(layers_texture));
-    let step = uniforms.fbm.step.xy;
+    let step = uniforms.fbm.sun_step;
     let octave = i32(map.layer);
     return vec4f(
         fbm_noise(uv + 3.0 * step, octave),

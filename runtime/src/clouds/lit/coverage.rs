@@ -8,7 +8,7 @@ use crate::params::LAYERS_AN_ITERATION;
 /// The share of places with more than this opacity: layers are independent but for the grain of their iteration, of which every rank is equally likely.
 pub(crate) fn covered(lit: &LitUniforms, opacity: f32) -> f32 {
     const RANKS: usize = 8;
-    let count = lit.dome[2] as usize;
+    let count = lit.count as usize;
     let open = Histogram::of([1.0].into_iter());
     let clear_with = |rank: usize| {
         let layers = lit.layers[..count].chunks(LAYERS_AN_ITERATION).enumerate();
@@ -16,11 +16,7 @@ pub(crate) fn covered(lit: &LitUniforms, opacity: f32) -> f32 {
             // Another iteration's grain is another one: any other order of the ranks.
             let rank = (rank * (1 + 2 * iteration)) % RANKS;
             let finer = (rank as f32 + 0.5) / RANKS as f32 - 0.5;
-            let grain = if layers[0].facing[2] > 0.0 {
-                finer
-            } else {
-                0.0
-            };
+            let grain = if layers[0].grain > 0.0 { finer } else { 0.0 };
             layers.iter().fold(all, |all, layer| {
                 Histogram::of_pairs(&all, &clearness(layer, grain), |all, layer| all * layer)
             })
@@ -33,12 +29,11 @@ pub(crate) fn covered(lit: &LitUniforms, opacity: f32) -> f32 {
 /// What a layer leaves of the light behind it: every amount is equally likely.
 fn clearness(layer: &LitLayerUniforms, grain: f32) -> Histogram {
     const AMOUNTS: usize = 512;
-    let [cut, steepness, most, _] = layer.shape;
     let clear = (0..AMOUNTS).map(|i| {
-        let thickness = ((i as f32 + 0.5) / AMOUNTS as f32 - cut).max(0.0);
-        let alpha = smoothstep(0.0, 1.0, steepness * thickness);
-        let rough = alpha + layer.facing[2] * grain * alpha * (1.0 - alpha);
-        1.0 - most * rough.clamp(0.0, 1.0)
+        let thickness = ((i as f32 + 0.5) / AMOUNTS as f32 - layer.threshold).max(0.0);
+        let alpha = smoothstep(0.0, 1.0, layer.steepness * thickness);
+        let rough = alpha + layer.grain * grain * alpha * (1.0 - alpha);
+        1.0 - layer.opacity * rough.clamp(0.0, 1.0)
     });
     Histogram::of(clear)
 }

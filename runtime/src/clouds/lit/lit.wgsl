@@ -1,24 +1,8 @@
 // Clouds of the lit method: layers with normals on an oblate hemisphere. Theory and CPU part: lit.rs.
-struct LitLayerUniforms {
-    axes: vec4f,  // xy: what a height of the dome to the east, zw: to the south adds to uv
-    place: vec4f, // xy: offset; zw: how far the second read is from the first
-    shape: vec4f, // x: the cut; y: 1 / thickness at which it is opaque; z: opacity where thick; w: how fast shade deepens
-    sun: vec4f,   // x: share of the way to the sun that a step of the blur takes; z: level of detail at distance 1; w: layer of the pack's texture
-    facing: vec4f, // xy: horizontal part of the direction to the sun, along u and v; z: share of the grain; w: relief
-}
-
-struct LitUniforms {
-    dome: vec4f,    // x: f^2; y: 1 - f^2, f the flattening; z: layers; w: texels a side of the map
-    light: vec4f,   // rgb: light of sun or moon on clouds; w: k1
-    towards: vec4f, // xyz: unit direction towards sun or moon; w: k2
-    source: vec4f,  // xy: where sun or moon is seen on the dome's plane, in its heights
-    ambient: vec4f, // rgb: light of the sky on clouds; w: m
-    layers: array<LitLayerUniforms, 6>,
-}
 
 // Distance to the dome along a unit direction, in its heights.
 fn lit_intersect(direction: vec3f) -> f32 {
-    return inverseSqrt(uniforms.lit.dome.x + uniforms.lit.dome.y * direction.y * direction.y);
+    return inverseSqrt(uniforms.lit.flattening_squared + uniforms.lit.one_minus_squared * direction.y * direction.y);
 }
 
 // Level of detail of a texture with one texel a height: half way between the sides of the footprint.
@@ -28,44 +12,44 @@ fn lit_level(distance: f32, direction: vec3f, narrowing: f32) -> f32 {
 }
 
 fn lit_uv(index: i32, plane: vec2f) -> vec2f {
-    let axes = uniforms.lit.layers[index].axes;
-    return axes.xy * plane.x + axes.zw * plane.y + uniforms.lit.layers[index].place.xy;
+    let east = uniforms.lit.layers[index].east_axis * plane.x;
+    return east + uniforms.lit.layers[index].south_axis * plane.y + uniforms.lit.layers[index].offset;
 }
 
 // The finer read of an iteration, by its lowest layer: how much denser it is than most, and how its normal meets the sun.
 fn lit_grain(index: i32, plane: vec2f, level: f32) -> vec2f {
-    let facing = uniforms.lit.layers[index].facing;
-    if facing.z == 0.0 {
+    if uniforms.lit.layers[index].grain == 0.0 {
         return vec2f(0.0);
     }
     let uv = lit_uv(index, plane) * LIT_FINER + LIT_FINER_START;
-    let sun = uniforms.lit.layers[index].sun;
-    let finer = textureSampleLevel(layers_texture, repeat_sampler, uv, i32(sun.w), level + sun.z + LIT_FINER_LEVEL);
-    return vec2f(finer.w - 0.5, LIT_FINER_RELIEF * dot(finer.xy * 2.0 - 1.0, facing.xy));
+    let kind = i32(uniforms.lit.layers[index].kind);
+    let at_level = level + uniforms.lit.layers[index].lod_bias + LIT_FINER_LEVEL;
+    let finer = textureSampleLevel(layers_texture, repeat_sampler, uv, kind, at_level);
+    return vec2f(finer.w - 0.5, LIT_FINER_RELIEF * dot(finer.xy * 2.0 - 1.0, uniforms.lit.layers[index].sun_uv));
 }
 
 // The way from a place of the plane to where sun or moon is seen, no longer than shade reaches.
 fn lit_way(plane: vec2f) -> vec2f {
-    let way = uniforms.lit.source.xy - plane;
+    let way = uniforms.lit.light_position - plane;
     return way * min(1.0, LIT_LONGEST_WAY * inverseSqrt(max(dot(way, way), 1e-12)));
 }
 
 // What a layer leaves of the light: the shade of the place itself and of two towards the sun, a radial blur.
 fn lit_blurred(index: i32, plane: vec2f, way: vec2f, level: f32, own: f32) -> f32 {
-    let sun = uniforms.lit.layers[index].sun;
-    let coarse = max(level + sun.z, 0.0) + LIT_BLUR_LEVEL;
-    let near = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane + sun.x * way), index, coarse);
-    let far = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane + 2.0 * sun.x * way), index, coarse);
+    let coarse = max(level + uniforms.lit.layers[index].lod_bias, 0.0) + LIT_BLUR_LEVEL;
+    let step = uniforms.lit.layers[index].blur_step;
+    let near = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane + step * way), index, coarse);
+    let far = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane + 2.0 * step * way), index, coarse);
     return dot(LIT_BLUR, vec3f(own, near.w, far.w));
 }
 
 // A layer along a ray, roughened by the grain: light that falls on it, nothing, opacity, shade of the place alone.
 fn lit_cloud(index: i32, plane: vec2f, level: f32, grain: vec2f) -> vec4f {
-    let at_level = level + uniforms.lit.layers[index].sun.z;
+    let at_level = level + uniforms.lit.layers[index].lod_bias;
     let cloud = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane), index, at_level);
-    let rough = uniforms.lit.layers[index].facing.z * grain;
+    let rough = uniforms.lit.layers[index].grain * grain;
     let alpha = clamp(cloud.z + rough.x * cloud.z * (1.0 - cloud.z), 0.0, 1.0);
-    return vec4f(max(cloud.x + rough.y, 0.0), 0.0, alpha * uniforms.lit.layers[index].shape.z, cloud.w);
+    return vec4f(max(cloud.x + rough.y, 0.0), 0.0, alpha * uniforms.lit.layers[index].opacity, cloud.w);
 }
 
 // What has been drawn of a sky, from the highest layer down.
@@ -105,18 +89,17 @@ fn lit_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let distance = lit_intersect(direction);
     let plane = direction.xz * distance;
     let level = lit_level(distance, direction, narrowing);
-    let towards = uniforms.lit.towards;
-    let scattered = uniforms.lit.light.w + towards.w * dot(direction, towards.xyz);
-    let through = pow(max(scattered, 0.0), uniforms.lit.ambient.w); // eq. 4
+    let scattered = uniforms.lit.k1 + uniforms.lit.k2 * dot(direction, uniforms.lit.light_direction);
+    let through = pow(max(scattered, 0.0), uniforms.lit.m); // eq. 4
     var sum = LitSum(0.0, 0.0, 1.0, 1.0);
-    if uniforms.lit.dome.z > LIT_LAYERS_AN_ITERATION {
+    if uniforms.lit.count > LIT_LAYERS_AN_ITERATION {
         sum = lit_iteration(sum, LIT_LAYERS_AN_ITERATION, plane, level, through);
     }
     sum = lit_iteration(sum, 0, plane, level, through);
     let alpha = 1.0 - sum.clear;
-    var radiance = sum.sunlight * uniforms.lit.light.rgb + sum.skylight * uniforms.lit.ambient.rgb;
-    if uniforms.clouds.tint.w > 0.0 {
-        radiance *= mix(vec3f(1.0), uniforms.clouds.tint.rgb, cloud_tint(direction));
+    var radiance = sum.sunlight * uniforms.lit.light + sum.skylight * uniforms.lit.ambient;
+    if uniforms.clouds.sunset > 0.0 {
+        radiance *= mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
     }
     return vec4f(radiance / max(alpha, 1e-4), alpha * cloud_clearness(direction));
 }

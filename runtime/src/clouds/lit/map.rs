@@ -29,6 +29,7 @@ pub const PART: Part = Part {
             Value::Int(LAYERS_AN_ITERATION as i32),
         ),
     ],
+    structs: &[],
     wgsl: include_str!("map.wgsl"),
 };
 

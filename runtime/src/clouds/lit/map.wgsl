@@ -22,9 +22,9 @@ fn lit_even(blend: f32) -> f32 {
 
 // The pack's texture where a layer reads it, both reads blended: normal, density, amount.
 fn lit_noise(layer: LitLayerUniforms, uv: vec2f) -> vec4f {
-    let kind = i32(layer.sun.w);
+    let kind = i32(layer.kind);
     let here = textureSampleLevel(layers_texture, repeat_sampler, uv, kind, 0.0);
-    let other = textureSampleLevel(layers_texture, repeat_sampler, uv + layer.place.zw, kind, 0.0);
+    let other = textureSampleLevel(layers_texture, repeat_sampler, uv + layer.second_offset, kind, 0.0);
     let blend = LIT_WEIGHTS.x * here + LIT_WEIGHTS.y * other;
     return vec4f(blend.xyz, lit_even(blend.w));
 }
@@ -33,24 +33,24 @@ fn lit_noise(layer: LitLayerUniforms, uv: vec2f) -> vec4f {
 fn lit_map_texel(index: i32, uv: vec2f) -> vec4f {
     let layer = uniforms.lit.layers[index];
     let cloud = lit_noise(layer, uv);
-    let slope = layer.facing.w * (cloud.xy * 2.0 - 1.0);
+    let slope = layer.relief * (cloud.xy * 2.0 - 1.0);
     let upward = sqrt(max(1.0 - dot(slope, slope), LIT_LEAST_UP));
-    let falls = max(dot(slope, layer.facing.xy) + upward * uniforms.lit.towards.y, 0.0); // eq. 3
-    let thickness = max(cloud.w - layer.shape.x, 0.0);
-    let alpha = smoothstep(0.0, 1.0, layer.shape.y * thickness);
+    let falls = max(dot(slope, layer.sun_uv) + upward * uniforms.lit.light_direction.y, 0.0); // eq. 3
+    let thickness = max(cloud.w - layer.threshold, 0.0);
+    let alpha = smoothstep(0.0, 1.0, layer.steepness * thickness);
     // Eq. 5 with C = 1 - 2^(-w s), so that it never ends: (1 - C)^m.
-    let shade = exp2(-uniforms.lit.ambient.w * layer.shape.w * lit_thick(layer, cloud));
+    let shade = exp2(-uniforms.lit.m * layer.shade_rate * lit_thick(layer, cloud));
     return vec4f(falls, cloud.w, alpha, shade);
 }
 
 // What a place holds back of the light: thickness above the cut, more where it is dense.
 fn lit_thick(layer: LitLayerUniforms, cloud: vec4f) -> f32 {
-    return max(cloud.w - max(layer.shape.x, 0.0), 0.0) * (0.5 + cloud.z);
+    return max(cloud.w - max(layer.threshold, 0.0), 0.0) * (0.5 + cloud.z);
 }
 
 @fragment
 fn fs_lit_map(@builtin(position) position: vec4f) -> LitTargets {
-    let uv = position.xy / uniforms.lit.dome.w;
+    let uv = position.xy / uniforms.lit.resolution;
     return LitTargets(
         lit_map_texel(FIRST_LAYER, uv),
         lit_map_texel(FIRST_LAYER + 1, uv),

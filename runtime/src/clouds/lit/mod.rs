@@ -32,15 +32,15 @@ pub mod coverage;
 pub mod map;
 pub mod shadow;
 
-use bytemuck::{Pod, Zeroable};
-use glam::{DMat2, DVec2, Vec2, Vec3};
+use glam::{DMat2, DVec2, Vec2, Vec3, Vec3Swizzles};
 use welkin_pack::LayerKind;
 
 use crate::clear_sky::light::{Light, luminary};
 use crate::clouds::shared::{CloudUniforms, CloudView, OPAQUE, before_smoothstep, closing, offset};
 use crate::geometry::dome::{self, Hit, Mesh};
-use crate::geometry::math::{smoothstep, vec4};
+use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 use crate::params::{LitLayer, MAX_LAYERS, SkyParams};
 
 /// Its part of the shader.
@@ -57,41 +57,74 @@ pub const PART: Part = Part {
         ("LIT_AMBIENT", Value::Vec2(AMBIENT)),
         ("LIT_BLUR", Value::Vec3(Vec3::from_array(BLUR))),
     ],
+    structs: &[LitLayerUniforms::WGSL, LitUniforms::WGSL],
     wgsl: include_str!("lit.wgsl"),
 };
 
-/// A layer of the lit method.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct LitLayerUniforms {
-    /// xy: what a height of the dome to the east, zw: to the south adds to uv.
-    pub axes: [f32; 4],
-    /// xy: offset; zw: how far the second read is from the first.
-    pub place: [f32; 4],
-    /// x: the cut; y: 1 / thickness at which it is opaque; z: opacity where thick; w: how fast shade deepens.
-    pub shape: [f32; 4],
-    /// x: share of the way to the sun that a step of the blur takes; z: level of detail at distance 1; w: layer of the pack's texture.
-    pub sun: [f32; 4],
-    /// xy: horizontal part of the direction to the sun, along u and v; z: share of the grain; w: relief.
-    pub facing: [f32; 4],
-}
+uniforms! {
+    /// A layer of the lit method.
+    LitLayerUniforms {
+        /// What a height of the dome to the east adds to uv.
+        east_axis: Vec2,
+        /// What a height of the dome to the south adds to uv.
+        south_axis: Vec2,
+        /// Where the first read lies.
+        offset: Vec2,
+        /// How far the second read is from the first.
+        second_offset: Vec2,
+        /// The rank from which there is cloud.
+        threshold: f32,
+        /// 1 / thickness at which it is opaque.
+        steepness: f32,
+        /// Opacity where it is thick.
+        opacity: f32,
+        /// How fast shade deepens with thickness.
+        shade_rate: f32,
+        /// Fraction of the way to the sun that a step of the blur takes.
+        blur_step: f32,
+        /// Level of detail at distance 1.
+        lod_bias: f32,
+        /// Layer of the pack's texture.
+        kind: f32,
+        /// Factor on the horizontal part of normals.
+        relief: f32,
+        /// Horizontal part of the direction to the sun, along u and v.
+        sun_uv: Vec2,
+        /// How much the grain roughens it.
+        grain: f32,
+        /// Nothing.
+        _pad: f32,
+    }
 
-/// Clouds of the lit method.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct LitUniforms {
-    /// x: `f^2`; y: `1 - f^2`, f the flattening; z: layers; w: texels a side of the map.
-    pub dome: [f32; 4],
-    /// rgb: light of sun or moon on clouds; w: k1.
-    pub light: [f32; 4],
-    /// xyz: unit direction towards sun or moon; w: k2.
-    pub towards: [f32; 4],
-    /// xy: where sun or moon is seen on the dome's plane, in its heights.
-    pub source: [f32; 4],
-    /// rgb: light of the sky on clouds; w: m.
-    pub ambient: [f32; 4],
-    /// From the lowest to the highest.
-    pub layers: [LitLayerUniforms; MAX_LAYERS],
+    /// Clouds of the lit method.
+    LitUniforms {
+        /// Square of the dome's flattening f.
+        flattening_squared: f32,
+        /// 1 - f^2.
+        one_minus_squared: f32,
+        /// How many layers are drawn.
+        count: f32,
+        /// Texels a side of the map.
+        resolution: f32,
+        /// Light of sun or moon on clouds.
+        light: Vec3,
+        /// The paper's k1.
+        k1: f32,
+        /// Unit direction towards sun or moon.
+        light_direction: Vec3,
+        /// The paper's k2.
+        k2: f32,
+        /// Where sun or moon is seen on the dome's plane, in its heights.
+        light_position: Vec2,
+        /// Nothing.
+        _pad: Vec2,
+        /// Light of the sky on clouds.
+        ambient: Vec3,
+        /// The paper's m.
+        m: f32,
+        /// From the lowest to the highest.
+        layers: [LitLayerUniforms; MAX_LAYERS],
+    }
 }
 
 /// How much finer the grain is, a read of the pack's texture. A whole number: offsets are reduced by whole tiles.
@@ -178,6 +211,8 @@ const STARTS: [DVec2; MAX_LAYERS] = [
 const CELLS: f64 = 12.0;
 /// The way of the second read, turned against the layer.
 const CHANGE_WAY: DVec2 = DVec2::new(0.8, -0.6);
+/// How fast shade deepens at density 0 and what density 1 adds, as factors on that of the kind. Chosen by eye.
+const SHADE_OF_DENSITY: [f32; 2] = [0.6, 0.8];
 /// How much less a shut sky is shaded: light comes from all sides.
 const EVENED: f32 = 0.65;
 /// Cover of a layer below which it is a trace.
@@ -233,17 +268,19 @@ pub fn uniforms(
         count += 1;
     }
     LitUniforms {
-        dome: [f2, 1.0 - f2, count as f32, map::SIDE as f32],
-        light: vec4(light.sunlight * shut(params.cover), own.k1),
-        towards: vec4(sun, own.k2),
-        source: vec4(Vec3::new(seen.x, seen.z, 0.0), 0.0),
-        ambient: [
-            clouds.ambient[0],
-            clouds.ambient[1],
-            clouds.ambient[2],
-            own.m,
-        ],
+        flattening_squared: f2,
+        one_minus_squared: 1.0 - f2,
+        count: count as f32,
+        resolution: map::SIDE as f32,
+        light: light.sunlight * shut(params.cover),
+        k1: own.k1,
+        light_direction: sun,
+        k2: own.k2,
+        light_position: seen.xz(),
+        ambient: clouds.ambient,
+        m: own.m,
         layers,
+        ..Default::default()
     }
 }
 
@@ -293,32 +330,32 @@ fn layer_uniforms(
     let axes = turn * (height_m / tile_m);
     let [east, south] = layer.velocity_m_s.map(f64::from);
     let way = DVec2::new(east, south) * (f64::from(params.speed) * view.seconds / height_m);
-    let [x, y] = offset(STARTS[index] + axes * (view.place(height_m) - way));
     let intervals = view.seconds / f64::from(own.formation_interval_s);
-    let [change_x, change_y] = offset(STARTS[5 - index] + CHANGE_WAY * (intervals / CELLS));
     let near = view.distance(height_m);
     let texels_a_height = f64::from(map::SIDE) * height_m / tile_m * near;
-    let towards = Vec2::new(sun.x, sun.z).as_dvec2();
     // Of two steps each way; a viewer near the layer sees no farther than to the sun.
     let step = 0.5 * (look.thickness_m / (height_m * near)).min(1.0);
     let steepness = (1.0 + params.density) / look.opaque;
-    let facing = (turn * towards).as_vec2();
+    let seen = axes * near;
+    let [thin, more] = SHADE_OF_DENSITY;
     LitLayerUniforms {
-        axes: (axes * near).to_cols_array().map(|v| v as f32),
-        place: [x, y, change_x, change_y],
-        shape: [
-            cut(cover, steepness, look.opacity),
-            steepness,
-            look.opacity,
-            look.shade * (0.6 + 0.8 * params.density) * (1.0 - EVENED * closing(params.cover)),
-        ],
-        sun: [
-            step as f32,
-            0.0,
-            view.level(texels_a_height),
-            layer.kind as u32 as f32,
-        ],
-        facing: [facing.x, facing.y, look.grain, look.relief],
+        east_axis: seen.x_axis.as_vec2(),
+        south_axis: seen.y_axis.as_vec2(),
+        offset: offset(STARTS[index] + axes * (view.place(height_m) - way)),
+        second_offset: offset(STARTS[5 - index] + CHANGE_WAY * (intervals / CELLS)),
+        threshold: cut(cover, steepness, look.opacity),
+        steepness,
+        opacity: look.opacity,
+        shade_rate: look.shade
+            * (thin + more * params.density)
+            * (1.0 - EVENED * closing(params.cover)),
+        blur_step: step as f32,
+        lod_bias: view.level(texels_a_height),
+        kind: layer.kind as u32 as f32,
+        relief: look.relief,
+        sun_uv: (turn * sun.xz().as_dvec2()).as_vec2(),
+        grain: look.grain,
+        ..Default::default()
     }
 }
 
@@ -332,15 +369,16 @@ fn cut(cover: f32, steepness: f32, opacity: f32) -> f32 {
 
 /// Radiance of a shut sky far away: layers where they have their mean, flat, around the whole horizon.
 pub fn overcast(lit: &LitUniforms) -> Vec3 {
-    let rgb = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
-    let (k1, k2, m) = (lit.light[3], lit.towards[3], lit.ambient[3]);
-    let [cut, .., shade] = lit.layers[0].shape;
-    let shade = (-m * shade * (0.5 - cut.max(0.0)).max(0.0)).exp2();
-    let level = Vec2::new(lit.towards[0], lit.towards[2]).length();
+    let LitUniforms { k1, k2, m, .. } = *lit;
+    let [lowest, ..] = &lit.layers;
+    let thickness = (0.5 - lowest.threshold.max(0.0)).max(0.0);
+    let shade = (-m * lowest.shade_rate * thickness).exp2();
+    let sun = lit.light_direction;
+    let level = sun.xz().length();
     let azimuth_rad = |i: u32| (i as f32 + 0.5) / AZIMUTHS as f32 * std::f32::consts::PI;
     let through = (0..AZIMUTHS).map(|i| (k1 + k2 * level * azimuth_rad(i).cos()).max(0.0).powf(m));
-    let light = lit.towards[1].max(0.0) + through.sum::<f32>() / AZIMUTHS as f32;
-    rgb(lit.light) * (light * shade) + rgb(lit.ambient) * (AMBIENT[0] + AMBIENT[1] * shade)
+    let light = sun.y.max(0.0) + through.sum::<f32>() / AZIMUTHS as f32;
+    lit.light * (light * shade) + lit.ambient * (AMBIENT[0] + AMBIENT[1] * shade)
 }
 
 #[cfg(test)]
@@ -420,23 +458,20 @@ mod tests {
     #[test]
     fn layers_without_a_share_are_left_out() {
         let mut params = SkyParams::default();
-        assert_eq!(at(&params, 0.0, DVec3::ZERO).dome[2], 3.0);
+        assert_eq!(at(&params, 0.0, DVec3::ZERO).count, 3.0);
         params.lit = LitParams::with_layers(&[LitLayer::of(LayerKind::Cirrus, 1.0)]);
         let lit = at(&params, 0.0, DVec3::ZERO);
-        assert_eq!((lit.dome[2], lit.layers[0].sun[3]), (1.0, 2.0));
+        assert_eq!((lit.count, lit.layers[0].kind), (1.0, 2.0));
         params.cover = 0.0;
-        assert_eq!(at(&params, 0.0, DVec3::ZERO).dome[2], 0.0);
+        assert_eq!(at(&params, 0.0, DVec3::ZERO).count, 0.0);
     }
 
     /// From offsets in the texture back to metres.
     fn moved_m(before: &LitUniforms, after: &LitUniforms, index: usize, height_m: f64) -> DVec2 {
         let (before, after) = (before.layers[index], after.layers[index]);
-        let axes = DMat2::from_cols_array(&before.axes.map(f64::from));
-        let apart = |k: usize| {
-            let d = f64::from(after.place[k] - before.place[k]);
-            d - d.round()
-        };
-        axes.inverse() * DVec2::new(apart(0), apart(1)) * height_m
+        let axes = DMat2::from_cols(before.east_axis.as_dvec2(), before.south_axis.as_dvec2());
+        let apart = (after.offset - before.offset).as_dvec2();
+        axes.inverse() * (apart - apart.round()) * height_m
     }
 
     #[test]
@@ -463,8 +498,11 @@ mod tests {
             ..windy
         };
         let (before, after) = (at(&still, 0.0, DVec3::ZERO), at(&still, 60.0, DVec3::ZERO));
-        assert_eq!(before.layers[0].place[..2], after.layers[0].place[..2]);
-        assert_ne!(before.layers[0].place[2..], after.layers[0].place[2..]);
+        assert_eq!(before.layers[0].offset, after.layers[0].offset);
+        assert_ne!(
+            before.layers[0].second_offset,
+            after.layers[0].second_offset
+        );
     }
 
     #[test]

@@ -43,28 +43,39 @@
 //! # }
 //! ```
 
-use bytemuck::{Pod, Zeroable};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec2, Vec3Swizzles};
 
 use crate::clouds::lit::{self, LitUniforms, map};
 use crate::clouds::shared::CloudView;
 use crate::device::layouts::Layouts;
 use crate::device::map::{draw, target};
 use crate::geometry::part::Part;
+use crate::geometry::uniforms::uniforms;
 use crate::params::{MAX_LAYERS, Method, SkyParams};
 
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[],
+    structs: &[ShadowLayer::WGSL, ShadowUniforms::WGSL],
     wgsl: include_str!("shadow.wgsl"),
 };
 
-/// Shadows of the lit method's clouds.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct ShadowUniforms {
-    /// Of each layer, xy: where its dome is seen in the corner of the texture; z: what a texel adds; w: level of detail.
-    pub layers: [[f32; 4]; MAX_LAYERS],
+uniforms! {
+    /// What a viewer at a place of the ground sees of a layer towards sun or moon.
+    ShadowLayer {
+        /// Where in the corner of the texture, on the dome's plane.
+        corner: Vec2,
+        /// What a texel adds.
+        texel: f32,
+        /// Level of detail.
+        lod: f32,
+    }
+
+    /// Shadows of the lit method's clouds.
+    ShadowUniforms {
+        /// Of each layer.
+        layers: [ShadowLayer; MAX_LAYERS],
+    }
 }
 
 /// Texels a side.
@@ -134,9 +145,9 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, lit: &LitUniforms) -> Shad
     let viewer_m = DVec2::new(view.place_m.x, view.place_m.z);
     let corner_m = area.centre_m - viewer_m - 0.5 * area.extent_m;
     let texel_m = area.extent_m / f64::from(SIDE);
-    let [east, up, south, _] = lit.towards.map(f64::from);
-    let [f2, rest, ..] = lit.dome.map(f64::from);
-    let plane = DVec2::new(east, south) / (f2 + rest * up * up).sqrt();
+    let sun = lit.light_direction.as_dvec3();
+    let [f2, rest] = [lit.flattening_squared, lit.one_minus_squared].map(f64::from);
+    let plane = sun.xz() / (f2 + rest * sun.y * sun.y).sqrt();
     let layers = lit::drawn(params).zip(&lit.layers);
     for (seen, ((index, _), own)) in shadow.layers.iter_mut().zip(layers) {
         let height_m = lit::height_m(params, index);
@@ -144,9 +155,13 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, lit: &LitUniforms) -> Shad
         // The layer's axes are for a viewer who stands so near to it; the ground is at height 0.
         let corner = (plane + corner_m / height_m) / near;
         let texel = texel_m / (height_m * near);
-        let tiles = texel * f64::from(own.axes[0]).hypot(f64::from(own.axes[1]));
-        let level = (tiles * f64::from(map::SIDE)).log2() - f64::from(own.sun[2]);
-        *seen = [corner.x, corner.y, texel, level].map(|v| v as f32);
+        let tiles = texel * f64::from(own.east_axis.x).hypot(f64::from(own.east_axis.y));
+        let level = (tiles * f64::from(map::SIDE)).log2() - f64::from(own.lod_bias);
+        *seen = ShadowLayer {
+            corner: corner.as_vec2(),
+            texel: texel as f32,
+            lod: level as f32,
+        };
     }
     shadow
 }

@@ -12,13 +12,12 @@ const DOME_NODES: usize = 64;
 
 /// The share of places with more than this opacity.
 pub(crate) fn covered(octaves: &OctaveUniforms, opacity: f32) -> f32 {
-    let exponent = octaves.shape[0];
     let middle = clearness(&octaves.middle, |thickness| {
-        let full = 1.0 - (THIN * exponent * thickness).exp2();
+        let full = 1.0 - (THIN * octaves.exponent * thickness).exp2();
         1.0 - MIDDLE_OPACITY * softened(full, EDGE)
     });
     let high = clearness(&octaves.high, |thickness| {
-        1.0 - HIGH_OPACITY * smoothstep(0.0, 1.0, thickness * octaves.map[3])
+        1.0 - HIGH_OPACITY * smoothstep(0.0, 1.0, thickness * octaves.high_contrast)
     });
     // The low dome needs no more than the whole opacity, whatever is behind it.
     let steps: Vec<f32> = (0..=NODES)
@@ -42,14 +41,12 @@ pub(crate) fn covered(octaves: &OctaveUniforms, opacity: f32) -> f32 {
 
 /// The share of the low dome with more than this opacity, averaged over the finer read.
 fn low_dome(octaves: &OctaveUniforms, opacity: f32) -> f32 {
-    let [exponent, .., finer_share] = octaves.shape;
-    let cut = octaves.low.place[3];
     let above = |finer: f32| {
-        let alpha = before_roughening(opacity, finer_share * finer);
+        let alpha = before_roughening(opacity, octaves.roughness * finer);
         let full = before_softening(alpha, EDGE).min(1.0);
         // At sharpness 0 there is no cloud however thick.
-        let thickness = (1.0 - full).log2() / exponent.min(-1e-6);
-        1.0 - (cut + thickness).clamp(0.0, 1.0)
+        let thickness = (1.0 - full).log2() / octaves.exponent.min(-1e-6);
+        1.0 - (octaves.low.threshold + thickness).clamp(0.0, 1.0)
     };
     let nodes = (0..NODES).map(|i| (i as f32 + 0.5) / NODES as f32 - 0.5);
     nodes.map(above).sum::<f32>() / NODES as f32
@@ -57,12 +54,12 @@ fn low_dome(octaves: &OctaveUniforms, opacity: f32) -> f32 {
 
 /// Shares of a dome and what each leaves of the light behind it, by the thickness above its cut.
 fn clearness(dome: &OctaveDome, of_thickness: impl Fn(f32) -> f32) -> Vec<[f32; 2]> {
-    let open = dome.place[3].clamp(0.0, 1.0);
+    let open = dome.threshold.clamp(0.0, 1.0);
     let node = |i: usize| {
         let amount = open + (1.0 - open) * (i as f32 + 0.5) / DOME_NODES as f32;
         [
             (1.0 - open) / DOME_NODES as f32,
-            of_thickness(amount - dome.place[3]),
+            of_thickness(amount - dome.threshold),
         ]
     };
     let clouds = (0..DOME_NODES).map(node).filter(|[share, _]| *share > 0.0);

@@ -38,6 +38,7 @@ pub const PART: Part = Part {
         ("NORMAL_BEND", Value::F32(NORMAL_BEND)),
         ("OCTAVE_RELIEF_COUNT", Value::Int(RELIEF_COUNT)),
     ],
+    structs: &[],
     wgsl: include_str!("map.wgsl"),
 };
 

@@ -38,11 +38,9 @@ fn normal_share(z: f32) -> f32 {
 
 // The weighted octaves from the first up to `count`.
 fn octaves_sum(uv: vec2f, first: i32, count: i32) -> f32 {
-    let octaves = uniforms.octaves;
     var sum = 0.0;
     for (var k = first; k < count; k++) {
-        let copies = select(octaves.cells_a[k & 3], octaves.cells_b[k & 3], k > 3);
-        sum += octaves_filtered(uv * copies * OCTAVE_NOISE_SIDE, k);
+        sum += octaves_filtered(uv * uniforms.octaves.copies[k >> 2u][k & 3] * OCTAVE_NOISE_SIDE, k);
     }
     return sum;
 }
@@ -51,18 +49,18 @@ fn octaves_sum(uv: vec2f, first: i32, count: i32) -> f32 {
 @fragment
 fn fs_octaves_map(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let octaves = uniforms.octaves;
-    let uv = position.xy / octaves.map.y;
-    let count = i32(octaves.map.x);
+    let uv = position.xy / octaves.resolution;
+    let count = i32(octaves.count);
     let large = min(count, OCTAVE_RELIEF_COUNT);
     // Finer octaves have no slope over a step: they would only add noise to the relief.
     let small = octaves_sum(uv, large, count);
     let amount = normal_share(octaves_sum(uv, 0, large) + small);
-    let towards_sun = normal_share(octaves_sum(uv + octaves.sun.xy, 0, large) + small);
-    let relief = octaves.shape.z * (amount - towards_sun);
-    let thickness = amount - octaves.low.place.w;
-    let low = octaves_alpha(thickness, octaves.shape.x);
-    let middle = octaves_alpha(amount - octaves.middle.place.w, OCTAVE_THIN * octaves.shape.x);
+    let towards_sun = normal_share(octaves_sum(uv + octaves.sun_step, 0, large) + small);
+    let relief = octaves.relief * (amount - towards_sun);
+    let thickness = amount - octaves.low.threshold;
+    let low = octaves_alpha(thickness, octaves.exponent);
+    let middle = octaves_alpha(amount - octaves.middle.threshold, OCTAVE_THIN * octaves.exponent);
     // In a shut sky the cut is below 0, and what lies under 0 does not darken.
-    let dark = octaves.shape.y * max(amount - max(octaves.low.place.w, 0.0), 0.0);
-    return vec4f(amount, low, middle, octaves.map.z + relief - dark);
+    let dark = octaves.darkening * max(amount - max(octaves.low.threshold, 0.0), 0.0);
+    return vec4f(amount, low, middle, octaves.edge_grey + relief - dark);
 }

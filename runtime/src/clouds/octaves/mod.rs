@@ -26,13 +26,13 @@
 pub mod coverage;
 pub mod map;
 
-use bytemuck::{Pod, Zeroable};
-use glam::{DMat2, DVec2, Vec3};
+use glam::{DMat2, DVec2, Vec2, Vec3, Vec4};
 
 use crate::clouds::shared::{
     CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, closing, offset, radiance,
 };
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
 
 /// Its part of the shader.
@@ -47,39 +47,56 @@ pub const PART: Part = Part {
         ("OCTAVE_HIGH_OPACITY", Value::F32(HIGH_OPACITY)),
         ("OCTAVE_FINER_START", Value::Vec2(FINER_START)),
     ],
+    structs: &[OctaveDome::WGSL, OctaveUniforms::WGSL],
     wgsl: include_str!("octaves.wgsl"),
 };
 
-/// A dome of the octaves method.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct OctaveDome {
-    /// xy: what a height to the east, zw: to the south adds to uv.
-    pub axes: [f32; 4],
-    /// xy: offset; z: level of detail at distance 1; w: the cut, 1 - cover.
-    pub place: [f32; 4],
-}
+uniforms! {
+    /// A dome of the octaves method.
+    OctaveDome {
+        /// What a height to the east adds to uv.
+        east_axis: Vec2,
+        /// What a height to the south adds to uv.
+        south_axis: Vec2,
+        /// Where the map lies.
+        offset: Vec2,
+        /// Level of detail at distance 1.
+        lod_bias: f32,
+        /// The amount from which there is cloud, 1 - cover.
+        threshold: f32,
+    }
 
-/// Clouds of the octaves method.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct OctaveUniforms {
-    /// Low clouds.
-    pub low: OctaveDome,
-    /// Middle clouds.
-    pub middle: OctaveDome,
-    /// High clouds.
-    pub high: OctaveDome,
-    /// x: log2 of (1 - sharpness)^255; y: how thickness darkens; z: relief; w: share of the finer read.
-    pub shape: [f32; 4],
-    /// xy: a step of the low dome towards the sun, in uv.
-    pub sun: [f32; 4],
-    /// Copies of the noise across the map, octaves 1 to 4.
-    pub cells_a: [f32; 4],
-    /// The same, octaves 5 to 8.
-    pub cells_b: [f32; 4],
-    /// x: octaves; y: texels a side of the map; z: grey of a thin edge; w: 1 / thickness at which the high dome is full.
-    pub map: [f32; 4],
+    /// Clouds of the octaves method.
+    OctaveUniforms {
+        /// Low clouds.
+        low: OctaveDome,
+        /// Middle clouds.
+        middle: OctaveDome,
+        /// High clouds.
+        high: OctaveDome,
+        /// log2 of (1 - sharpness)^255.
+        exponent: f32,
+        /// How thickness darkens.
+        darkening: f32,
+        /// Strength of the relief.
+        relief: f32,
+        /// How much the finer read roughens the edges of the low clouds.
+        roughness: f32,
+        /// A step of the low dome towards the sun, in uv.
+        sun_step: Vec2,
+        /// Nothing.
+        _pad: Vec2,
+        /// Copies of the noise across the map, four octaves a vector.
+        copies: [Vec4; 2],
+        /// How many octaves are summed.
+        count: f32,
+        /// Texels a side of the map.
+        resolution: f32,
+        /// Display-referred grey of a thin edge.
+        edge_grey: f32,
+        /// 1 / thickness at which the high dome is full.
+        high_contrast: f32,
+    }
 }
 
 /// How much finer the second read of the map is. A whole number: offsets are reduced by whole tiles.
@@ -92,6 +109,12 @@ pub const FINER_START: [f32; 2] = [0.37, 0.71];
 pub const EDGE: f32 = 0.6;
 /// Display-referred grey of a thin edge of the low clouds, at density 0 and 1.
 const EDGE_GREY: [f32; 2] = [0.95, 0.62];
+/// How much thickness darkens the low clouds at density 0 and 1. Chosen by eye, as are the next two.
+const DARKENING: [f32; 2] = [0.25, 0.75];
+/// Strength of the relief at density 0 and 1.
+const RELIEF: [f32; 2] = [1.4, 0.7];
+/// How much the second read roughens the edges of the low clouds.
+const ROUGHNESS: f32 = 3.6;
 /// How much fuzzier than the low dome the others are: a share of its exponent.
 pub const THIN: f32 = 0.35;
 /// Opacity of the middle and of the high dome where they are thick.
@@ -132,7 +155,7 @@ const OVERCAST: f32 = 0.5;
 const COLOUR_RANGE: f32 = 255.0;
 
 /// The method's share of the uniforms. `params` are in range; `sun_azimuth` is a unit vector (east, south).
-pub fn uniforms(params: &SkyParams, view: &CloudView, sun_azimuth: [f32; 2]) -> OctaveUniforms {
+pub fn uniforms(params: &SkyParams, view: &CloudView, sun_azimuth: Vec2) -> OctaveUniforms {
     let own = params.octaves;
     let side = map::side(own.count);
     let low_tile = TILE[0] + (TILE[1] - TILE[0]) * f64::from(params.height);
@@ -142,12 +165,10 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun_azimuth: [f32; 2]) -> 
         DVec2::from(HIGH_TILE),
     ];
     let way = MAX_WIND * LOW_HEIGHT_M * f64::from(params.speed) * view.seconds;
-    let azimuth = DVec2::new(f64::from(sun_azimuth[0]), f64::from(sun_azimuth[1]));
     let axes =
         |index: usize| DMat2::from_diagonal(tiles[index].recip()) * DMat2::from_angle(TURNS[index]);
     let dome = |index: usize| {
         let place = view.place(HEIGHTS_M[index]) - WINDS[index] * way / HEIGHTS_M[index];
-        let [x, y] = offset(STARTS[index] + axes(index) * place);
         let seen = axes(index) * view.distance(HEIGHTS_M[index]);
         let texels_a_height = f64::from(side) * seen.determinant().abs().sqrt();
         let share = own.domes[index];
@@ -158,35 +179,33 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun_azimuth: [f32; 2]) -> 
             0.0
         };
         let cover = params.cover * share * (1.0 - closed) + closed;
-        let cut = 1.0 - cover - OVERCAST * closed;
         OctaveDome {
-            axes: seen.to_cols_array().map(|v| v as f32),
-            place: [x, y, view.level(texels_a_height), cut],
+            east_axis: seen.x_axis.as_vec2(),
+            south_axis: seen.y_axis.as_vec2(),
+            offset: offset(STARTS[index] + axes(index) * place),
+            lod_bias: view.level(texels_a_height),
+            threshold: 1.0 - cover - OVERCAST * closed,
         }
     };
     let [low, middle, high] = [0, 1, 2].map(dome);
-    let step = (axes(0) * azimuth * RELIEF_STEP).as_vec2();
+    let sun_step = (axes(0) * sun_azimuth.as_dvec2() * RELIEF_STEP).as_vec2();
     let exponent = exponent(own.sharpness) * (1.0 + params.density);
-    let copies = map::copies(own.count);
+    let mix = |[from, to]: [f32; 2]| from + (to - from) * params.density;
     OctaveUniforms {
         low,
         middle,
         high,
-        shape: [
-            exponent,
-            0.25 + 0.5 * params.density,
-            1.4 - 0.7 * params.density,
-            3.6,
-        ],
-        sun: [step.x, step.y, 0.0, 0.0],
-        cells_a: [copies[0], copies[1], copies[2], copies[3]],
-        cells_b: [copies[4], copies[5], copies[6], copies[7]],
-        map: [
-            own.count as f32,
-            side as f32,
-            EDGE_GREY[0] + (EDGE_GREY[1] - EDGE_GREY[0]) * params.density,
-            -0.5 * THIN * exponent,
-        ],
+        exponent,
+        darkening: mix(DARKENING),
+        relief: mix(RELIEF),
+        roughness: ROUGHNESS,
+        sun_step,
+        copies: bytemuck::cast(map::copies(own.count)),
+        count: own.count as f32,
+        resolution: side as f32,
+        edge_grey: mix(EDGE_GREY),
+        high_contrast: -0.5 * THIN * exponent,
+        ..Default::default()
     }
 }
 
@@ -198,10 +217,10 @@ fn exponent(sharpness: f32) -> f32 {
 
 /// Radiance of a shut sky far away: the low dome where the map has its mean, without relief.
 pub fn overcast(octaves: &OctaveUniforms, clouds: &CloudUniforms) -> Vec3 {
-    let thickness = (0.5 - octaves.low.place[3].max(0.0)).max(0.0);
+    let thickness = (0.5 - octaves.low.threshold.max(0.0)).max(0.0);
     radiance(
         clouds,
-        (octaves.map[2] - octaves.shape[1] * thickness).clamp(0.0, 1.0),
+        (octaves.edge_grey - octaves.darkening * thickness).clamp(0.0, 1.0),
     )
 }
 
@@ -218,17 +237,14 @@ mod tests {
             seconds,
             place_m,
         };
-        uniforms(params, &view, [1.0, 0.0])
+        uniforms(params, &view, Vec2::X)
     }
 
     /// From offsets in the map back to heights of the dome.
     fn moved(before: &OctaveDome, after: &OctaveDome) -> DVec2 {
-        let axes = DMat2::from_cols_array(&before.axes.map(f64::from));
-        let apart = |k: usize| {
-            let d = f64::from(after.place[k] - before.place[k]);
-            d - d.round()
-        };
-        axes.inverse() * DVec2::new(apart(0), apart(1))
+        let axes = DMat2::from_cols(before.east_axis.as_dvec2(), before.south_axis.as_dvec2());
+        let apart = (after.offset - before.offset).as_dvec2();
+        axes.inverse() * (apart - apart.round())
     }
 
     #[test]
@@ -271,10 +287,10 @@ mod tests {
         let mut params = SkyParams::default();
         params.octaves.domes = [1.0, 0.0, 0.5];
         let octaves = at(&params, 0.0, DVec3::ZERO);
-        assert_eq!(octaves.middle.place[3], 1.0);
-        assert!(octaves.low.place[3] < 1.0 && octaves.high.place[3] < 1.0);
+        assert_eq!(octaves.middle.threshold, 1.0);
+        assert!(octaves.low.threshold < 1.0 && octaves.high.threshold < 1.0);
         params.cover = 0.0;
-        assert_eq!(at(&params, 0.0, DVec3::ZERO).low.place[3], 1.0);
+        assert_eq!(at(&params, 0.0, DVec3::ZERO).low.threshold, 1.0);
     }
 
     #[test]

@@ -32,24 +32,24 @@ impl Texels {
 
     /// The share of places with more than this opacity, by the packed method.
     pub(crate) fn covered(&self, packed: &PackedUniforms, opacity: f32) -> f32 {
-        let [cut, stretch, density, upper] = packed.shape;
-        let smooth = packed.levels[2];
+        let smooth = packed.smoothness;
         let lower = |opacity: f32| {
             if opacity < 0.0 {
                 return 1.0;
             }
-            let alpha = before_softening(opacity, EDGE) / (stretch * (1.0 + 2.0 * density));
+            let alpha =
+                before_softening(opacity, EDGE) / (packed.contrast * (1.0 + 2.0 * packed.density));
             self.detail.mean(|detail| {
                 self.amount
-                    .above(cut + alpha / (detail + (1.0 - detail) * smooth))
+                    .above(packed.threshold + alpha / (detail + (1.0 - detail) * smooth))
             })
         };
-        if upper == 0.0 {
+        if packed.upper_layer == 0.0 {
             return lower(opacity);
         }
         self.noise.mean(|wisp| {
             let veil = smoothstep(UPPER_THRESHOLD, 1.0, wisp);
-            let clear = 1.0 - upper * UPPER_OPACITY * veil;
+            let clear = 1.0 - packed.upper_layer * UPPER_OPACITY * veil;
             lower(behind(opacity, clear))
         })
     }

@@ -23,13 +23,13 @@
 
 pub mod coverage;
 
-use bytemuck::{Pod, Zeroable};
-use glam::{DVec2, Vec3};
+use glam::{DVec2, Vec2, Vec3};
 
 use crate::clouds::shared::{
     CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, closing, offset, radiance,
 };
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
 
 /// Its part of the shader.
@@ -40,25 +40,50 @@ pub const PART: Part = Part {
         ("UPPER_OPACITY", Value::F32(UPPER_OPACITY)),
         ("UPPER_THRESHOLD", Value::F32(UPPER_THRESHOLD)),
     ],
+    structs: &[PackedUniforms::WGSL],
     wgsl: include_str!("packed.wgsl"),
 };
 
-/// Clouds of the packed method.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct PackedUniforms {
-    /// x: scale; yz: offset; w: level of detail at distance 1.
-    pub photo: [f32; 4],
-    /// xy: scale times cosine and sine of its turn; zw: offset.
-    pub noise: [f32; 4],
-    /// x: scale; yz: offset; w: level of detail at distance 1.
-    pub detail: [f32; 4],
-    /// xy: scale to the east and to the south; zw: offset.
-    pub upper: [f32; 4],
-    /// x, y: level of detail of noise and upper layer at distance 1; z: smoothness (line 19).
-    pub levels: [f32; 4],
-    /// x: the cut of line 15; y: 1 / cover, as clamped in line 16; z: density; w: amount of the upper layer.
-    pub shape: [f32; 4],
+uniforms! {
+    /// Clouds of the packed method. Scales are in tiles a height of the layer, offsets in tiles, and a level of detail is that at distance 1.
+    PackedUniforms {
+        /// Where the photo lies.
+        photo_offset: Vec2,
+        /// Scale of the photo.
+        photo_scale: f32,
+        /// Level of detail of the photo.
+        photo_lod_bias: f32,
+        /// Scale of the noise times cosine and sine of its turn.
+        noise_rotation: Vec2,
+        /// Where the noise lies.
+        noise_offset: Vec2,
+        /// Where the detail lies.
+        detail_offset: Vec2,
+        /// Scale of the detail.
+        detail_scale: f32,
+        /// Level of detail of the detail.
+        detail_lod_bias: f32,
+        /// Scale of the upper layer to the east and to the south.
+        upper_scale: Vec2,
+        /// Where the upper layer lies.
+        upper_offset: Vec2,
+        /// Level of detail of the noise.
+        noise_lod_bias: f32,
+        /// Level of detail of the upper layer.
+        upper_lod_bias: f32,
+        /// How little detail pierces the clouds, 0..1 (line 19).
+        smoothness: f32,
+        /// Nothing.
+        _pad: f32,
+        /// The amount from which there is cloud (line 15).
+        threshold: f32,
+        /// 1 / cover, as clamped in line 16.
+        contrast: f32,
+        /// Density.
+        density: f32,
+        /// Amount of the upper layer.
+        upper_layer: f32,
+    }
 }
 
 /// How soft the foot of the opacity is: below it the opacity rises as a square, above it in a line.
@@ -108,40 +133,28 @@ pub fn uniforms(params: &SkyParams, view: &CloudView) -> PackedUniforms {
     // Coordinates on the layer shrink as it comes nearer; offsets are of the layer itself.
     let near = view.distance(LOW_HEIGHT_M);
     let upper_scale = DVec2::from(UPPER_SCALE) * view.distance(UPPER_HEIGHT_M);
-    let [photo_x, photo_y] = offset(PHOTO_START + (place - PHOTO_WIND * way) * scale);
-    let [noise_x, noise_y] = offset(NOISE_START + (turned_place - noise_way) * noise_scale);
-    let [detail_x, detail_y] = offset((place - PHOTO_WIND * way) * detail_scale);
     let upper_place = view.place(UPPER_HEIGHT_M) - UPPER_WIND * way;
-    let [upper_x, upper_y] = offset(UPPER_START + DVec2::from(UPPER_SCALE) * upper_place);
     let level = |scale: f64| view.level(scale * f64::from(view.texels));
     let closing = closing(params.cover);
     PackedUniforms {
-        photo: [(scale * near) as f32, photo_x, photo_y, level(scale * near)],
-        noise: [
-            (noise_scale * near * cos) as f32,
-            (noise_scale * near * sin) as f32,
-            noise_x,
-            noise_y,
-        ],
-        detail: [
-            (detail_scale * near) as f32,
-            detail_x,
-            detail_y,
-            level(detail_scale * near),
-        ],
-        upper: [upper_scale.x as f32, upper_scale.y as f32, upper_x, upper_y],
-        levels: [
-            level(noise_scale * near),
-            level((upper_scale.x * upper_scale.y).sqrt()),
-            params.density.max(closing),
-            0.0,
-        ],
-        shape: [
-            1.0 - params.cover - OVERCAST * closing,
-            1.0 / params.cover.max(0.05),
-            params.density,
-            params.upper_layer,
-        ],
+        photo_offset: offset(PHOTO_START + (place - PHOTO_WIND * way) * scale),
+        photo_scale: (scale * near) as f32,
+        photo_lod_bias: level(scale * near),
+        noise_rotation: (DVec2::new(cos, sin) * (noise_scale * near)).as_vec2(),
+        noise_offset: offset(NOISE_START + (turned_place - noise_way) * noise_scale),
+        detail_offset: offset((place - PHOTO_WIND * way) * detail_scale),
+        detail_scale: (detail_scale * near) as f32,
+        detail_lod_bias: level(detail_scale * near),
+        upper_scale: upper_scale.as_vec2(),
+        upper_offset: offset(UPPER_START + DVec2::from(UPPER_SCALE) * upper_place),
+        noise_lod_bias: level(noise_scale * near),
+        upper_lod_bias: level((upper_scale.x * upper_scale.y).sqrt()),
+        smoothness: params.density.max(closing),
+        threshold: 1.0 - params.cover - OVERCAST * closing,
+        contrast: 1.0 / params.cover.max(0.05),
+        density: params.density,
+        upper_layer: params.upper_layer,
+        ..Default::default()
     }
 }
 
@@ -151,17 +164,16 @@ pub fn uniforms(params: &SkyParams, view: &CloudView) -> PackedUniforms {
 /// shader's; line 19 is left out, since detail does not pierce a shut sky.
 pub fn overcast(packed: &PackedUniforms, clouds: &CloudUniforms, means: [f32; 3]) -> Vec3 {
     let [photo, noise, detail] = means;
-    let [cut, stretch, density, _] = packed.shape;
     let amount = photo + noise * (1.0 - photo);
-    let alpha = ((amount - cut) * stretch).max(0.0);
-    let beyond = amount + detail * (1.0 - amount) + density * alpha * 2.0 - 1.0;
+    let alpha = ((amount - packed.threshold) * packed.contrast).max(0.0);
+    let beyond = amount + detail * (1.0 - amount) + packed.density * alpha * 2.0 - 1.0;
     let grey = 1.0 + beyond - 0.75 * (beyond + (beyond * beyond + FOLD * FOLD).sqrt());
     radiance(clouds, grey.clamp(0.0, 1.0))
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::{DVec3, Vec2};
+    use glam::DVec3;
 
     use super::*;
 
@@ -192,15 +204,9 @@ mod tests {
         };
         let (before, after) = (at(windy, 0.0), at(windy, 1.0));
         // Back from texture coordinates to the plane of the dome: what stood over the viewer has moved so far.
-        let photo = Vec2::new(
-            before.photo[1] - after.photo[1],
-            before.photo[2] - after.photo[2],
-        ) / before.photo[0];
-        let turn = Vec2::new(before.noise[0], before.noise[1]);
-        let moved = Vec2::new(
-            before.noise[2] - after.noise[2],
-            before.noise[3] - after.noise[3],
-        );
+        let photo = (before.photo_offset - after.photo_offset) / before.photo_scale;
+        let turn = before.noise_rotation;
+        let moved = before.noise_offset - after.noise_offset;
         let noise = Vec2::new(turn.x, -turn.y).rotate(moved) / turn.length_squared();
         for (way, wind) in [(photo, PHOTO_WIND), (noise, NOISE_WIND)] {
             assert!(
@@ -227,11 +233,11 @@ mod tests {
             0.0,
             DVec3::new(LOW_HEIGHT_M, 0.0, 0.0),
         );
-        let moved = there.photo[1] - here.photo[1];
-        assert!((moved - here.photo[0]).abs() < 1e-5, "{moved}");
-        let upper = there.upper[2] - here.upper[2];
+        let moved = there.photo_offset.x - here.photo_offset.x;
+        assert!((moved - here.photo_scale).abs() < 1e-5, "{moved}");
+        let upper = there.upper_offset.x - here.upper_offset.x;
         let less = (LOW_HEIGHT_M / UPPER_HEIGHT_M) as f32;
-        assert!((upper - here.upper[0] * less).abs() < 1e-5, "{upper}");
+        assert!((upper - here.upper_scale.x * less).abs() < 1e-5, "{upper}");
     }
 
     #[test]
@@ -242,9 +248,9 @@ mod tests {
             DVec3::new(0.0, LOW_HEIGHT_M / 2.0, 0.0),
         );
         let here = at(SkyParams::default(), 0.0);
-        assert!((climbed.photo[0] / here.photo[0] - 0.5).abs() < 1e-6);
-        assert_eq!(climbed.photo[1..3], here.photo[1..3]);
-        assert!((climbed.photo[3] - here.photo[3] + 1.0).abs() < 1e-5);
+        assert!((climbed.photo_scale / here.photo_scale - 0.5).abs() < 1e-6);
+        assert_eq!(climbed.photo_offset, here.photo_offset);
+        assert!((climbed.photo_lod_bias - here.photo_lod_bias + 1.0).abs() < 1e-5);
     }
 
     #[test]
@@ -256,14 +262,15 @@ mod tests {
         for seconds in [-1e9, -1e-9, 1e6, 1e12] {
             let c = at(windy, seconds);
             let offsets = [
-                &c.photo[1..3],
-                &c.noise[2..4],
-                &c.detail[1..3],
-                &c.upper[2..4],
-            ]
-            .concat();
+                c.photo_offset,
+                c.noise_offset,
+                c.detail_offset,
+                c.upper_offset,
+            ];
             assert!(
-                offsets.iter().all(|o| (0.0..=1.0).contains(o)),
+                offsets
+                    .iter()
+                    .all(|o| o.min_element() >= 0.0 && o.max_element() <= 1.0),
                 "{seconds}: {offsets:?}"
             );
         }
@@ -279,7 +286,7 @@ mod tests {
                 },
                 0.0,
             )
-            .shape[0]
+            .threshold
         };
         for cover in [0.0, 0.57, 0.69, 0.8] {
             assert_eq!(cut(cover), 1.0 - cover);
@@ -297,7 +304,7 @@ mod tests {
                 },
                 0.0,
             )
-            .photo[0]
+            .photo_scale
         };
         assert!((tile(0.0) - 7.0).abs() < 1e-4 && (tile(1.0) - 2.75).abs() < 1e-4);
         assert!(tile(0.52) < tile(0.2));

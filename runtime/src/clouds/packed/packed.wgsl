@@ -1,12 +1,4 @@
 // Clouds of the packed texture: lines 14 to 28 of the paper's shader. Theory, changes, CPU part: packed.rs.
-struct PackedUniforms {
-    photo: vec4f,    // x: scale; yz: offset; w: level of detail at distance 1
-    noise: vec4f,    // xy: scale times cosine and sine of its turn; zw: offset
-    detail: vec4f,   // x: scale; yz: offset; w: level of detail at distance 1
-    upper: vec4f,    // xy: scale to the east and to the south; zw: offset
-    levels: vec4f,   // x, y: level of detail of noise and upper layer at distance 1; z: smoothness (line 19)
-    shape: vec4f,    // x: the cut of line 15; y: 1 / cover, as clamped in line 16; z: density; w: amount of the upper layer
-}
 
 fn packed_sample(uv: vec2f, level: f32) -> vec4f {
     return textureSampleLevel(clouds_texture, repeat_sampler, uv, level);
@@ -21,13 +13,13 @@ fn packed_fold(grey: f32) -> f32 {
 // Opacity of the thin upper layer.
 fn packed_veil(hit: DomeHit, level: f32) -> f32 {
     let packed = uniforms.packed;
-    let wisp = packed_sample(hit.plane * packed.upper.xy + packed.upper.zw, level + packed.levels.y).g;
-    return packed.shape.w * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, wisp);
+    let wisp = packed_sample(hit.plane * packed.upper_scale + packed.upper_offset, level + packed.upper_lod_bias).g;
+    return packed.upper_layer * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, wisp);
 }
 
 // Its radiance: white under the sunset tint.
 fn packed_white(tint: f32) -> vec3f {
-    return cloud_light(mix(vec3f(1.0), uniforms.clouds.tint.rgb, tint));
+    return cloud_light(mix(vec3f(1.0), uniforms.clouds.tint, tint));
 }
 
 // Radiance and opacity of the clouds along a unit direction above the horizon.
@@ -37,24 +29,23 @@ fn packed_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let level = cloud_level(hit, narrowing);
 
     let turned = vec2f(
-        hit.plane.x * packed.noise.x - hit.plane.y * packed.noise.y,
-        hit.plane.x * packed.noise.y + hit.plane.y * packed.noise.x,
+        hit.plane.x * packed.noise_rotation.x - hit.plane.y * packed.noise_rotation.y,
+        hit.plane.x * packed.noise_rotation.y + hit.plane.y * packed.noise_rotation.x,
     );
-    let photo = packed_sample(hit.plane * packed.photo.x + packed.photo.yz, level + packed.photo.w).r;
-    let noise = packed_sample(turned + packed.noise.zw, level + packed.levels.x).g;
-    let detail = packed_sample(hit.plane * packed.detail.x + packed.detail.yz, level + packed.detail.w).b;
+    let photo = packed_sample(hit.plane * packed.photo_scale + packed.photo_offset, level + packed.photo_lod_bias).r;
+    let noise = packed_sample(turned + packed.noise_offset, level + packed.noise_lod_bias).g;
+    let detail = packed_sample(hit.plane * packed.detail_scale + packed.detail_offset, level + packed.detail_lod_bias).b;
     let tint = cloud_tint(direction);
 
-    let density = packed.shape.z;
     let amount = photo + noise * (1.0 - photo);                      // line 14
-    var alpha = (amount - packed.shape.x) * packed.shape.y;          // lines 15-17
+    var alpha = (amount - packed.threshold) * packed.contrast;       // lines 15-17
     var grey = amount + detail * (1.0 - amount);                     // line 18
-    alpha *= mix(detail, 1.0, packed.levels.z);                      // line 19
-    let thick = density * max(alpha, 0.0) * 2.0;                     // lines 20-21
+    alpha *= mix(detail, 1.0, packed.smoothness);                    // line 19
+    let thick = packed.density * max(alpha, 0.0) * 2.0;              // lines 20-21
     grey += thick;
     alpha = clamp(alpha + thick, 0.0, 1.0);                          // line 25
     grey = clamp(packed_fold(grey), 0.0, 1.0);                        // lines 22-25
-    let tinted = mix(vec3f(grey), uniforms.clouds.tint.rgb, tint);   // lines 26-27
+    let tinted = mix(vec3f(grey), uniforms.clouds.tint, tint);   // lines 26-27
     var radiance = cloud_light(tinted);                              // line 28
 
     alpha = cloud_soften(alpha, PACKED_EDGE);

@@ -1,6 +1,6 @@
 //! The ring of impostors: size, likeness, seams, cross-fade, and what it remembers.
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3, Vec4};
 use welkin_runtime::params::MOST_DISTANCE_M;
 use welkin_runtime::sprites::ring::{BYTES, FADE_FRAMES, PICTURES, Ring, Station};
 use welkin_runtime::{Camera, Sky, SkyParams, SpriteParams};
@@ -200,7 +200,7 @@ fn a_ray_meets_the_picture_where_it_was_drawn() {
         let ray = Vec3::new(azimuth.sin(), 0.07, -azimuth.cos());
         let (side, uv) = hit(&uniforms, &uniforms.used, ray);
         let view = station.view(side, 128.0, 0.0);
-        let along = |row: [f32; 4]| Vec3::new(row[0], row[1], row[2]).dot(ray);
+        let along = |row: Vec4| row.truncate().dot(ray);
         let clip = Vec2::new(along(view.clip_x), along(view.clip_y)) / along(view.clip_w);
         let seen = Vec2::new(0.5 + 0.5 * clip.x, 0.5 - 0.5 * clip.y);
         assert!(
@@ -226,7 +226,7 @@ fn a_ray_leaves_through_the_nearest_side_wherever_the_viewer_is() {
     let made = Ring::new(station(0.0, 0.0));
     for (x, z) in [(0.0, 0.0), (1200.0, 0.0), (-800.0, 850.0), (0.0, -1199.0)] {
         let (uniforms, _) = made.uniforms(DVec3::new(x, 50.0, z));
-        let middle = Vec3::from_slice(&uniforms.used.place);
+        let middle = uniforms.used.centre;
         for step in 0..1000 {
             let azimuth = (step as f32 * 0.36 + 0.05).to_radians();
             let ray = Vec3::new(azimuth.sin(), 0.1, -azimuth.cos());

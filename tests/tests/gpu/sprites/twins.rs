@@ -12,7 +12,7 @@ use welkin_runtime::{Camera, Lightning, SkyModel, SkyParams, SpriteParams};
 use welkin_tests::renderer::{FILTER_STEP, Frame, Twin};
 use welkin_tests::sprites::{Inputs, Placed, along, placed};
 use welkin_tests::texture::Texture;
-use welkin_tests::{camera, compare, gpu, xyz};
+use welkin_tests::{camera, compare, gpu};
 
 use super::{field, params, view, without_ring};
 
@@ -34,8 +34,10 @@ fn stand(inputs: &Inputs, params: &SkyParams, viewer: DVec3, seconds: f64) -> Ve
         let origin = (DVec3::new(corner.x, 0.0, corner.y) - viewer).as_vec3();
         let far = block.distance_of_middle_m(viewer) > f64::from(BOXES_BEYOND_M);
         let uniform = SpriteBlock {
-            origin: origin.extend(1.0).to_array(),
-            slot: [0, if far { 2 } else { 3 }, 0, 0],
+            origin,
+            opacity: 1.0,
+            vertices_log2: if far { 2 } else { 3 },
+            ..Default::default()
         };
         let mut own: Vec<&Instance> = all[block.index(2)].instances.iter().collect();
         let distance = |i: &Instance| (origin + i.centre_m()).length();
@@ -150,11 +152,13 @@ fn radiance_of_sprites_agrees_in_a_float_target() {
         let frame = twin.frame(&params, &camera, 0.0);
         let uniforms = &frame.uniforms;
         let pixel = 2.0
-            * (xyz(uniforms.camera.right).length() / uniforms.camera.right[3])
-                .max(xyz(uniforms.camera.up).length() / uniforms.camera.up[3]);
+            * (uniforms.camera.right.length() / uniforms.camera.width_px)
+                .max(uniforms.camera.up.length() / uniforms.camera.height_px);
         let view = SpriteView {
-            viewer: [camera.position_m.y, pixel, 128.0, 0.0],
-            ..SpriteView::default()
+            height_m: camera.position_m.y,
+            pixel_rad: pixel,
+            cell_texels: 128.0,
+            ..Default::default()
         };
         let inputs = Inputs {
             uniforms,

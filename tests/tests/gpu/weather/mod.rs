@@ -11,7 +11,7 @@ use welkin_runtime::{
     Camera, DepthConfig, Lightning, Method, Sky, SkyConfig, SkyModel, SkyParams, WeatherParams,
 };
 use welkin_tests::renderer::{Frame, Twin};
-use welkin_tests::{compare, gpu, pack, xyz};
+use welkin_tests::{compare, gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 const SIZE: [u32; 2] = [96, 72];
@@ -90,11 +90,11 @@ fn overlaid(
     frame: &Frame,
     without: &[Vec3],
     overlay: impl Fn(Vec3) -> (Vec3, f32),
-    colours: [[f32; 4]; 2],
+    colours: [Vec3; 2],
     off: f32,
 ) -> [Vec<Vec3>; 2] {
     let bound = |behind: &Vec3| {
-        let [a, b] = colours.map(|colour| off * (xyz(colour) - *behind).abs());
+        let [a, b] = colours.map(|colour| off * (colour - *behind).abs());
         a.max(b) + 0.002 * behind.abs() + 1e-4
     };
     let bounds = without.iter().map(bound).collect();

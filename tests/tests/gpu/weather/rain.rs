@@ -6,7 +6,7 @@ use glam::Vec3;
 use welkin_runtime::frame::Uniforms;
 use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::renderer::{Frame, Twin};
-use welkin_tests::{gpu, pack, rain, xyz};
+use welkin_tests::{gpu, pack, rain};
 
 use super::{FORMAT, SIZE, assert_near, drawn, params, with};
 
@@ -16,10 +16,7 @@ fn rained_on(frame: &Frame, picture: &[Vec3], turned_rad: f32) -> Vec<Vec3> {
     let mut covered = rain::streaks(camera, rain, turned_rad).into_iter();
     let hazed = frame.under(picture, |ray| rain::haze(rain, ray));
     frame.under(&hazed, |_| {
-        (
-            xyz(rain.streak),
-            covered.next().expect("every pixel is there"),
-        )
+        (rain.streak, covered.next().expect("every pixel is there"))
     })
 }
 
@@ -129,7 +126,7 @@ fn more_rain_is_more_haze_and_more_drops_beside_those_that_were_there() {
     for amount in [0.1, 0.3, 0.6, 1.0] {
         let params = with(params(Method::Packed), |w| w.rain = amount);
         let frame = twin.frame_without_map(&params, &Camera::looking(1.0, 0.1, 1.0, SIZE), 3.0);
-        let haze = frame.uniforms.rain.haze[3];
+        let haze = frame.uniforms.rain.haze_opacity;
         let now = streaks(amount, 96, 3.0);
         assert!(haze > last_haze, "{amount}: {haze} after {last_haze}");
         let there = last.iter().zip(&now).all(|(l, n)| *n >= l - 1e-6);

@@ -6,7 +6,7 @@ use glam::Vec3;
 use welkin_runtime::weather::rays::{GAIN, REACH};
 use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::renderer::Twin;
-use welkin_tests::{gpu, pack, rays, xyz};
+use welkin_tests::{gpu, pack, rays};
 
 use super::{FORMAT, SIZE, assert_near, drawn, overlaid, params, view, with};
 
@@ -33,7 +33,7 @@ fn rays_are_the_twins() {
             frame.map = gpu::read_map(&sky);
             let streaks = rays::streaks(method, &frame.inputs());
             let own = frame.uniforms.rays;
-            let strongest = own.sun[3];
+            let strongest = own.opacity;
             assert!(strongest > 0.3, "{name}: {strongest}");
             // Each of three maps is rounded to bytes, and each read of one is off by up to a byte: 1.5 bytes for the mask, as many for
             // the sum, for the streak and for its surroundings, times the gain; and 1.5 of the streaks, 127 to one.
@@ -74,14 +74,14 @@ fn rays_point_away_from_the_sun() {
         let streaks = rays::streaks(method, &frame.inputs());
         let own = frame.uniforms.rays;
         let contrast = |direction: Vec3| {
-            let away = direction.normalize() - xyz(own.sun);
-            let turns = libm::atan2f(away.dot(xyz(own.up)), away.dot(xyz(own.right))) / TAU;
+            let away = direction.normalize() - own.sun_direction;
+            let turns = libm::atan2f(away.dot(own.up), away.dot(own.right)) / TAU;
             rays::contrast(&streaks, [turns, away.length() / REACH])
         };
         let (mut along, mut across) = (0.0, 0.0);
         for (turn, share) in (0..200).flat_map(|turn| (3..10).map(move |share| (turn, share))) {
             let here = rays::direction(&own, [turn as f32 / 200.0, share as f32 / 20.0]);
-            let sideways = xyz(own.sun).cross(here).normalize();
+            let sideways = own.sun_direction.cross(here).normalize();
             let [out, side] = [sideways.cross(here), sideways]
                 .map(|step| contrast(here + 0.02 * step) - contrast(here));
             along += out * out;
