@@ -1,6 +1,6 @@
 //! Lightning that comes again and again: which flash belongs to a moment. A function of the moment, as everything of a frame is.
 
-use welkin_runtime::Lightning;
+use welkin_runtime::params::Lightning;
 
 /// Seconds before the end of its interval by which a flash is over.
 const OVER_S: f64 = 1.0;

@@ -2,9 +2,10 @@
 
 mod make;
 
+use welkin_runtime::Method;
+use welkin_runtime::params::SkyModel;
 use welkin_runtime::params::{CUSTOM, TURBIDITY};
 use welkin_runtime::params::{FORMATION_INTERVAL_S, MAX_OCTAVES};
-use welkin_runtime::{Method, SkyModel};
 
 use crate::key::{Group, Input, Key, Slot};
 use crate::lightning::LIGHTNING_FORM;

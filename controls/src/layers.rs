@@ -2,7 +2,7 @@
 
 use welkin_pack::LayerKind;
 use welkin_runtime::params::MAX_LAYERS;
-use welkin_runtime::{LitLayer, LitParams};
+use welkin_runtime::params::{LitLayer, LitParams};
 
 use crate::values::of_sky;
 

@@ -1,6 +1,6 @@
 //! A flash of lightning as text.
 
-use welkin_runtime::Lightning;
+use welkin_runtime::params::Lightning;
 
 use crate::values::{of_sky, place_km};
 

@@ -1,7 +1,8 @@
 //! Text of the settings that are no plain number: one pair of functions each, from the settings and into them.
 
-use welkin_runtime::clear_sky::cie::LAST_OVERCAST;
-use welkin_runtime::{FbmParams, Method, PerezShape, SkyModel};
+use welkin_runtime::Method;
+use welkin_runtime::internals::clear_sky::cie::LAST_OVERCAST;
+use welkin_runtime::params::{FbmParams, PerezShape, SkyModel};
 
 use crate::layers::{layers as read_layers, layers_text};
 use crate::lightning::{self, NONE};
@@ -190,7 +191,7 @@ pub fn flash(settings: &Settings) -> String {
 
 pub fn set_flash(settings: &mut Settings, text: &str) -> Result<(), String> {
     settings.params.weather.lightning = match text {
-        NONE => welkin_runtime::Lightning::default(),
+        NONE => welkin_runtime::params::Lightning::default(),
         _ => lightning::lightning(text)
             .map_err(or_none)?
             .at(settings.at_s),

@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use welkin_runtime::SkyParams;
-use welkin_runtime::clear_sky::cie;
+use welkin_runtime::internals::clear_sky::cie;
 use welkin_runtime::params::{CUSTOM, TURBIDITY};
 use welkin_runtime::params::{FORMATION_INTERVAL_S, MAX_OCTAVES};
 

@@ -1,7 +1,7 @@
 //! Twin of camera.wgsl.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::geometry::camera::CameraUniforms;
+use welkin_runtime::internals::geometry::camera::CameraUniforms;
 
 /// Direction of a pixel, not normalised; (0.5, 0.5) is the centre of the upper left pixel.
 pub fn ray_of(camera: &CameraUniforms, pixel: Vec2) -> Vec3 {
@@ -23,7 +23,7 @@ pub fn pixel_of(camera: &CameraUniforms, direction: Vec3) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use welkin_runtime::pack_data::PackData;
+    use welkin_runtime::internals::pack_data::PackData;
     use welkin_runtime::{Camera, SkyParams};
 
     #[test]

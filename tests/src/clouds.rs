@@ -2,9 +2,9 @@
 
 use glam::Vec3;
 use welkin_pack::mapping;
-use welkin_runtime::clouds::shared::CORE;
-use welkin_runtime::clouds::shared::CloudUniforms;
-use welkin_runtime::frame::Uniforms;
+use welkin_runtime::internals::clouds::shared::CORE;
+use welkin_runtime::internals::clouds::shared::CloudUniforms;
+use welkin_runtime::internals::frame::Uniforms;
 
 use crate::dome::DomeHit;
 use crate::texture::{Texture, smoothstep};
@@ -77,8 +77,8 @@ mod tests {
     #[test]
     fn opacity_starts_without_a_kink_and_keeps_its_ends() {
         for edge in [
-            welkin_runtime::clouds::packed::EDGE,
-            welkin_runtime::clouds::octaves::EDGE,
+            welkin_runtime::internals::clouds::packed::EDGE,
+            welkin_runtime::internals::clouds::octaves::EDGE,
         ] {
             assert_eq!(soften(0.0, edge), 0.0);
             assert!((soften(1.0, edge) - 1.0).abs() < 1e-6);

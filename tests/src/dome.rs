@@ -1,7 +1,7 @@
 //! Twin of dome.wgsl.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::geometry::dome::CLOUD_SPHERE_RADIUS;
+use welkin_runtime::internals::geometry::dome::CLOUD_SPHERE_RADIUS;
 
 /// Where a ray meets the cloud dome: place on the plane, distance, and what gives the incidence.
 pub struct DomeHit {

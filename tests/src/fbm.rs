@@ -1,7 +1,7 @@
 //! Twin of fbm.wgsl.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::clouds::fbm::{FINER, FINER_START, FULL, ROUGH_SHADE};
+use welkin_runtime::internals::clouds::fbm::{FINER, FINER_START, FULL, ROUGH_SHADE};
 
 use crate::clouds::{self, Inputs};
 use crate::dome;

@@ -1,8 +1,8 @@
 //! Twin of fbm_map.wgsl: the article's loop over up to eight layers, in floats.
 
 use welkin_pack::Image;
-use welkin_runtime::clouds::fbm::FbmUniforms;
-use welkin_runtime::clouds::fbm::map::{ABSORPTION, DEPTHS};
+use welkin_runtime::internals::clouds::fbm::FbmUniforms;
+use welkin_runtime::internals::clouds::fbm::map::{ABSORPTION, DEPTHS};
 
 use crate::texture::Texture;
 

@@ -2,8 +2,8 @@
 
 use glam::{Vec2, Vec3};
 use welkin_pack::mapping;
-use welkin_runtime::clear_sky::galaxy::GRAIN_SCALE;
-use welkin_runtime::clear_sky::galaxy::GalaxyUniforms;
+use welkin_runtime::internals::clear_sky::galaxy::GRAIN_SCALE;
+use welkin_runtime::internals::clear_sky::galaxy::GalaxyUniforms;
 
 use crate::texture::Texture;
 

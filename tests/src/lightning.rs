@@ -1,9 +1,9 @@
 //! Twin of lightning.wgsl.
 
 use glam::Vec3;
-use welkin_runtime::clear_sky::light::luminance;
-use welkin_runtime::frame::Uniforms;
-use welkin_runtime::weather::lightning::{CORE, SPREAD, THIN};
+use welkin_runtime::internals::clear_sky::light::luminance;
+use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::internals::weather::lightning::{CORE, SPREAD, THIN};
 
 use crate::dome;
 

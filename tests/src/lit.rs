@@ -1,11 +1,11 @@
 //! Twin of lit.wgsl: the paper's equations, one function each.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::clouds::lit::{
+use welkin_runtime::internals::clouds::lit::{
     AMBIENT, BLUR, BLUR_LEVEL, FINER, FINER_RELIEF, FINER_START, LEAST_STRETCH, LONGEST_WAY,
     SHADED_BY_LAYER,
 };
-use welkin_runtime::clouds::lit::{LitLayerUniforms, LitUniforms};
+use welkin_runtime::internals::clouds::lit::{LitLayerUniforms, LitUniforms};
 use welkin_runtime::params::LAYERS_AN_ITERATION;
 
 use crate::clouds::{self, Inputs};
@@ -172,7 +172,7 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
 mod tests {
     use std::f32::consts::TAU;
 
-    use welkin_runtime::pack_data::PackData;
+    use welkin_runtime::internals::pack_data::PackData;
     use welkin_runtime::{Camera, Method, SkyParams};
 
     use super::*;

@@ -1,8 +1,8 @@
 //! Twin of lit_map.wgsl: each layer of the map, and what texture units may make of it.
 
 use welkin_pack::{Image, LayerKind, Pack, Role};
-use welkin_runtime::clouds::lit::{LitLayerUniforms, LitUniforms};
-use welkin_runtime::clouds::lit::map::{LEAST_UP, WEIGHTS};
+use welkin_runtime::internals::clouds::lit::map::{LEAST_UP, WEIGHTS};
+use welkin_runtime::internals::clouds::lit::{LitLayerUniforms, LitUniforms};
 use welkin_runtime::params::MAX_LAYERS;
 
 use crate::texture::{Texture, mix, smoothstep};

@@ -3,7 +3,7 @@
 use welkin_pack::Image;
 use welkin_pack::role::Wrap;
 use welkin_pack::texture::unorm8;
-use welkin_runtime::device::map::LEAST_SIDE;
+use welkin_runtime::internals::device::map::LEAST_SIDE;
 
 use crate::texture::Texture;
 

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use welkin_runtime::Method;
-use welkin_runtime::frame::Uniforms;
+use welkin_runtime::internals::frame::Uniforms;
 
 use crate::clouds::Inputs;
 use crate::{fbm, lit, octaves, packed};

@@ -1,8 +1,8 @@
 //! Twin of octaves.wgsl.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::clouds::octaves::OctaveDome;
-use welkin_runtime::clouds::octaves::{
+use welkin_runtime::internals::clouds::octaves::OctaveDome;
+use welkin_runtime::internals::clouds::octaves::{
     EDGE, FINER, FINER_START, HIGH_OPACITY, MIDDLE_OPACITY, ROUGH_GREY,
 };
 

@@ -4,9 +4,10 @@ use std::ops::Range;
 
 use glam::Vec2;
 use welkin_pack::Image;
-use welkin_runtime::clouds::octaves::OctaveUniforms;
-use welkin_runtime::clouds::octaves::{EDGE, THIN};
-use welkin_runtime::clouds::octaves::map::{NOISE_SIDE, NORMAL_BEND, NORMAL_SLOPE, RELIEF_COUNT};
+use welkin_runtime::internals::clouds::octaves::OctaveUniforms;
+use welkin_runtime::internals::clouds::octaves::map::{NOISE_SIDE, RELIEF_COUNT};
+use welkin_runtime::internals::clouds::octaves::{EDGE, THIN};
+use welkin_runtime::internals::geometry::math::{NORMAL_BEND, NORMAL_SLOPE};
 
 use crate::gpu;
 use crate::octaves::alpha;
@@ -25,7 +26,7 @@ pub fn normal_share(z: f32) -> f32 {
 }
 
 /// Level 0 of the map, not rounded: amount, opacity of the low and of the middle dome, grey of the low dome.
-/// `states` are those of [`welkin_runtime::clouds::octaves::map::states`].
+/// `states` are those of [`welkin_runtime::internals::clouds::octaves::map::states`].
 pub fn render(octaves: &OctaveUniforms, states: &[f32]) -> Image {
     let OctaveUniforms {
         count,

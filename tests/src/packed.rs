@@ -1,8 +1,8 @@
 //! Twin of packed.wgsl.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::clouds::packed::{EDGE, FOLD, UPPER_OPACITY, UPPER_THRESHOLD};
-use welkin_runtime::frame::Uniforms;
+use welkin_runtime::internals::clouds::packed::{EDGE, FOLD, UPPER_OPACITY, UPPER_THRESHOLD};
+use welkin_runtime::internals::frame::Uniforms;
 
 use crate::clouds::{self, Inputs, light, soften};
 use crate::dome;
@@ -102,8 +102,8 @@ pub fn upper_layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f
 
 #[cfg(test)]
 mod tests {
-    use welkin_runtime::clouds::packed::PackedUniforms;
-    use welkin_runtime::clouds::shared::CloudUniforms;
+    use welkin_runtime::internals::clouds::packed::PackedUniforms;
+    use welkin_runtime::internals::clouds::shared::CloudUniforms;
 
     use super::*;
 
@@ -168,8 +168,8 @@ mod tests {
     #[test]
     fn a_shut_sky_far_away_is_the_mean_cloud() {
         let pack = crate::pack::default_pack();
-        let facts =
-            welkin_runtime::pack_data::PackData::new(pack).expect("the pack has every role");
+        let facts = welkin_runtime::internals::pack_data::PackData::new(pack)
+            .expect("the pack has every role");
         let [photo, noise, detail] = facts.cloud_means;
         let camera = welkin_runtime::Camera::looking(0.0, 0.3, 1.0, [64, 64]);
         for (time, density) in [(0.5, 0.0), (0.3, 0.6), (0.0, 1.0)] {

@@ -4,11 +4,14 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 
 use glam::Vec3;
 use welkin_pack::Pack;
-use welkin_runtime::clear_sky::perez::PerezUniforms;
-use welkin_runtime::clear_sky::perez::{DAYLIGHT, LEAST_COSINE, RGB_OF_XYZ, TO_DAYLIGHT, acos};
-use welkin_runtime::frame::Uniforms;
-use welkin_runtime::pack_data::PackData;
-use welkin_runtime::{Camera, PerezParams, PerezShape, SkyModel, SkyParams};
+use welkin_runtime::internals::clear_sky::perez::PerezUniforms;
+use welkin_runtime::internals::clear_sky::perez::{
+    DAYLIGHT, LEAST_COSINE, RGB_OF_XYZ, TO_DAYLIGHT, acos,
+};
+use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::internals::pack_data::PackData;
+use welkin_runtime::params::{PerezParams, PerezShape, SkyModel};
+use welkin_runtime::{Camera, SkyParams};
 
 use crate::pack;
 

@@ -3,9 +3,9 @@
 use std::f32::consts::TAU;
 
 use glam::{Mat3, Vec2, Vec3};
-use welkin_runtime::geometry::camera::CameraUniforms;
-use welkin_runtime::weather::rain::RainUniforms;
-use welkin_runtime::weather::rain::{
+use welkin_runtime::internals::geometry::camera::CameraUniforms;
+use welkin_runtime::internals::weather::rain::RainUniforms;
+use welkin_runtime::internals::weather::rain::{
     COLUMNS, DROPS_A_COLUMN, FADE, HAZE_ABOVE, HAZE_FALL, HEIGHT_M, SLOTS,
 };
 

@@ -6,8 +6,8 @@ use glam::{Vec2, Vec3};
 use welkin_pack::Image;
 use welkin_pack::role::Wrap;
 use welkin_runtime::Method;
-use welkin_runtime::weather::rays::RayUniforms;
-use welkin_runtime::weather::rays::{
+use welkin_runtime::internals::weather::rays::RayUniforms;
+use welkin_runtime::internals::weather::rays::{
     AROUND, CORE, DECAY, GAIN, GROUND, HORIZON, REACH, SIZE, SOURCE, TAPS, TEXEL_RAD, WINDOW,
 };
 

@@ -2,9 +2,9 @@
 
 use glam::{Vec2, Vec3};
 use welkin_pack::{Image, Pack, Role};
-use welkin_runtime::clear_sky::galaxy::EXTINCTION;
-use welkin_runtime::frame::Uniforms;
-use welkin_runtime::pack_data::PackData;
+use welkin_runtime::internals::clear_sky::galaxy::EXTINCTION;
+use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::internals::pack_data::PackData;
 use welkin_runtime::{Camera, Method, SkyParams};
 
 use crate::clouds::Inputs;

@@ -1,7 +1,7 @@
 //! Twin of shadow.wgsl and cloud_shadow.wgsl.
 
 use glam::Vec2;
-use welkin_runtime::clouds::lit::shadow::SIDE;
+use welkin_runtime::internals::clouds::lit::shadow::SIDE;
 
 use crate::clouds::{self, Inputs};
 use crate::lit;

@@ -1,8 +1,8 @@
 //! Twin of sky.wgsl.
 
 use glam::{Vec3, Vec3Swizzles};
-use welkin_runtime::clear_sky::gradient::{GROUND_FALL, GROUND_FLOOR};
-use welkin_runtime::frame::Uniforms;
+use welkin_runtime::internals::clear_sky::gradient::{GROUND_FALL, GROUND_FLOOR};
+use welkin_runtime::internals::frame::Uniforms;
 
 use crate::perez;
 use crate::texture::Texture;

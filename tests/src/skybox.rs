@@ -3,7 +3,7 @@
 use glam::Vec3;
 use welkin_pack::mapping::{cube_texel, direction_to_cube};
 use welkin_pack::{Image, Pack, Role};
-use welkin_runtime::clear_sky::skybox::SkyboxUniforms;
+use welkin_runtime::internals::clear_sky::skybox::SkyboxUniforms;
 
 use crate::texture::mix as blend;
 

@@ -1,13 +1,13 @@
 //! Twin of sprites.wgsl.
 
 use glam::{Vec2, Vec3, Vec4};
-use welkin_runtime::frame::Uniforms;
-use welkin_runtime::sprites::instances::Instance;
-use welkin_runtime::sprites::locks::{LOCK, NEAR};
-use welkin_runtime::sprites::outline::Outline;
-use welkin_runtime::sprites::pipelines::SpriteBlock;
-use welkin_runtime::sprites::ring::SpriteView;
-use welkin_runtime::sprites::{RIM_OPAQUE, SpriteUniforms, formation};
+use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::internals::sprites::instances::Instance;
+use welkin_runtime::internals::sprites::locks::{LOCK, NEAR};
+use welkin_runtime::internals::sprites::outline::Outline;
+use welkin_runtime::internals::sprites::pipelines::SpriteBlock;
+use welkin_runtime::internals::sprites::ring::SpriteView;
+use welkin_runtime::internals::sprites::{RIM_OPAQUE, SpriteUniforms, formation};
 
 use crate::texture::{Texture, smoothstep};
 use crate::{clouds, sky};

@@ -3,8 +3,8 @@
 use glam::{IVec2, Vec2, Vec3};
 use welkin_pack::mapping::{self, STAR_TILE_SIDE, STAR_TILE_START, StarPlace};
 use welkin_pack::{Pack, Role, StarTexel};
-use welkin_runtime::clear_sky::stars::{COLD, GALAXY_BOOST, WARM};
-use welkin_runtime::frame::Uniforms;
+use welkin_runtime::internals::clear_sky::stars::{COLD, GALAXY_BOOST, WARM};
+use welkin_runtime::internals::frame::Uniforms;
 
 use crate::camera;
 

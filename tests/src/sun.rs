@@ -1,8 +1,8 @@
 //! Twin of sun.wgsl.
 
 use glam::Vec3;
-use welkin_runtime::clear_sky::sun::HORIZON;
-use welkin_runtime::frame::Uniforms;
+use welkin_runtime::internals::clear_sky::sun::HORIZON;
+use welkin_runtime::internals::frame::Uniforms;
 
 use crate::texture::{Texture, smoothstep};
 

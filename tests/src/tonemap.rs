@@ -1,7 +1,7 @@
 //! Twin of tonemap.wgsl, without the dither.
 
 use glam::Vec3;
-use welkin_runtime::tonemap::{KNEE, SHOULDER};
+use welkin_runtime::internals::tonemap::{KNEE, SHOULDER};
 
 /// The tone curve.
 pub fn curve(radiance: Vec3) -> Vec3 {

@@ -23,7 +23,7 @@ pub struct Drawn {
     /// The sky.
     pub frame: Frame,
     /// The clouds' shadows on the ground, where the sky has them: rows from north to south, texels from west to east, each the
-    /// share of direct light that the clouds let through. See [`welkin_runtime::clouds::lit::shadow`].
+    /// share of direct light that the clouds let through. See [`welkin_runtime::shadow`].
     pub shadow: Option<Frame>,
 }
 

@@ -138,6 +138,6 @@ fn a_palette_does_not_undo_the_colours_that_come_with_it() {
     assert_eq!(settings.params.fbm.lit, [0.1, 0.2, 0.3]);
     assert_eq!(
         settings.params.fbm.shaded,
-        welkin_runtime::FbmParams::STORMY.shaded
+        welkin_runtime::params::FbmParams::STORMY.shaded
     );
 }

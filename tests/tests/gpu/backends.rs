@@ -8,7 +8,8 @@
 
 use glam::Vec3;
 use welkin_pack::{LayerKind, Pack};
-use welkin_runtime::{Camera, LitLayer, LitParams, Method, OctaveParams, SkyParams};
+use welkin_runtime::params::{LitLayer, LitParams, OctaveParams};
+use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::gpu::{Gpu, rgb};
 use welkin_tests::renderer::Twin;
 use welkin_tests::{compare, drivers, pack};

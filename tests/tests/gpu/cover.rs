@@ -1,8 +1,8 @@
 //! Cover is the share of the sky that clouds take, and no grid shows in them.
 
 use welkin_pack::{Pack, Role};
-use welkin_runtime::clouds::fbm::map;
-use welkin_runtime::pack_data::PackData;
+use welkin_runtime::internals::clouds::fbm::map as fbm_map;
+use welkin_runtime::internals::pack_data::PackData;
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::{gpu, pack};
 

@@ -1,9 +1,9 @@
 //! The papers' dome mesh and the analytic dome are the same dome.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::clouds::lit;
-use welkin_runtime::geometry::dome;
-use welkin_runtime::geometry::dome::{Mesh, Vertex};
+use welkin_runtime::internals::clouds::lit;
+use welkin_runtime::internals::geometry::dome;
+use welkin_runtime::internals::geometry::dome::{Mesh, Vertex};
 use welkin_runtime::{Camera, Method, Sky, SkyConfig, SkyParams};
 use welkin_tests::renderer::Twin;
 use welkin_tests::{compare, gpu, pack};

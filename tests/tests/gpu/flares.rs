@@ -3,8 +3,8 @@
 use glam::camera::rh::{proj::directx::perspective, view::look_to_mat4};
 use glam::{Vec2, Vec3};
 use welkin_pack::{FlareCell, Pack, Role, mapping};
-use welkin_runtime::clear_sky::flares::FlareUniforms;
-use welkin_runtime::clear_sky::flares::RATIOS;
+use welkin_runtime::internals::clear_sky::flares::FlareUniforms;
+use welkin_runtime::internals::clear_sky::flares::RATIOS;
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::film::Film;
 use welkin_tests::renderer::{Frame, Twin};

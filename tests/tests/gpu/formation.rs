@@ -1,11 +1,12 @@
 //! What changes a map beside its motion, new states of octaves and a sun that moves on, never makes it jump.
 
 use welkin_pack::LayerKind;
-use welkin_runtime::clouds::fbm::pack::SHADE_BYTES;
-use welkin_runtime::clouds::lit::map::WEIGHTS;
-use welkin_runtime::clouds::octaves::map::NOISE_SIDE;
-use welkin_runtime::pack_data::PackData;
-use welkin_runtime::{Camera, LitLayer, LitParams, Method, Sky, SkyParams};
+use welkin_runtime::internals::clouds::fbm::pack::SHADE_BYTES;
+use welkin_runtime::internals::clouds::lit::map::WEIGHTS;
+use welkin_runtime::internals::clouds::octaves::map::NOISE_SIDE;
+use welkin_runtime::internals::pack_data::PackData;
+use welkin_runtime::params::{LitLayer, LitParams};
+use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::lit_map::even;
 use welkin_tests::octaves_map::{most_change, most_change_of_amount};
 use welkin_tests::{gpu, lit_map, pack};

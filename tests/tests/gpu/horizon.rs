@@ -3,8 +3,9 @@
 use std::f32::consts::TAU;
 
 use glam::Vec3;
-use welkin_runtime::clear_sky::gradient::GROUND_FALL;
-use welkin_runtime::{Camera, Method, Sky, SkyModel, SkyParams};
+use welkin_runtime::internals::clear_sky::gradient::GROUND_FALL;
+use welkin_runtime::params::SkyModel;
+use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::{gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;

@@ -7,9 +7,10 @@ use std::sync::OnceLock;
 
 use glam::{Vec2, Vec3};
 use welkin_pack::{Image, LayerKind, Pack, mapping};
-use welkin_runtime::clouds::lit::LitUniforms;
-use welkin_runtime::pack_data::PackData;
-use welkin_runtime::{Camera, LitLayer, LitParams, Method, Sky, SkyParams};
+use welkin_runtime::internals::clouds::lit::LitUniforms;
+use welkin_runtime::internals::pack_data::PackData;
+use welkin_runtime::params::{LitLayer, LitParams};
+use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::film::Film;
 use welkin_tests::{camera, gpu, lit, pack};
 
@@ -339,7 +340,9 @@ fn shade_is_blurred_radially_from_where_the_sun_is_seen() {
         };
         let lit = uniforms(pack, &params);
         let towards = sun(pack, time);
-        let seen = welkin_runtime::clouds::lit::intersect(params.lit.flattening, towards).position;
+        let seen =
+            welkin_runtime::internals::clouds::lit::intersect(params.lit.flattening, towards)
+                .position;
         let source = Vec2::new(seen.x, seen.z);
         for turn in 0..16 {
             let away = Vec2::from_angle(turn as f32 / 16.0 * std::f32::consts::TAU);
@@ -398,8 +401,11 @@ fn a_cloud_is_shaded_by_what_is_between_it_and_the_sun() {
         // Thin places: those with a thick one on the way to the sun are darker than those with one as far the other way.
         let (mut shaded, mut free) = (Vec::new(), Vec::new());
         for (direction, light) in directions(&stripe, &view).iter().zip(&light) {
-            let distance =
-                welkin_runtime::clouds::lit::intersect(params.lit.flattening, *direction).distance;
+            let distance = welkin_runtime::internals::clouds::lit::intersect(
+                params.lit.flattening,
+                *direction,
+            )
+            .distance;
             let plane = Vec2::new(direction.x, direction.z) * distance;
             let [here, near, far] = lit::places(&lit, 0, plane);
             let (way, thin) = (near - here, own(here));

@@ -1,7 +1,8 @@
 //! Each off-screen pass alone: what a device draws into the map is what the twin computes.
 
 use welkin_pack::{Image, LayerKind, Pack};
-use welkin_runtime::{Camera, LitLayer, LitParams, Method, OctaveParams, SkyParams};
+use welkin_runtime::params::{LitLayer, LitParams, OctaveParams};
+use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::renderer::Twin;
 use welkin_tests::{gpu, lit_map, map, pack};
 

@@ -1,8 +1,8 @@
 //! Clouds change their shapes, and never jump.
 
 use glam::{Vec2, Vec3Swizzles, Vec4Swizzles};
-use welkin_runtime::frame::Uniforms;
-use welkin_runtime::pack_data::PackData;
+use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::internals::pack_data::PackData;
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::film::Film;
 use welkin_tests::renderer::{Frame, Twin};

@@ -5,9 +5,10 @@ use std::sync::OnceLock;
 
 use glam::Vec2;
 use welkin_pack::{LayerKind, Pack};
-use welkin_runtime::clouds::shared::OPAQUE;
-use welkin_runtime::oktas::LEAST_SINE;
-use welkin_runtime::{Camera, LitLayer, LitParams, Method, Oktas, Sky, SkyParams};
+use welkin_runtime::internals::clouds::shared::OPAQUE;
+use welkin_runtime::internals::oktas::LEAST_SINE;
+use welkin_runtime::params::{LitLayer, LitParams};
+use welkin_runtime::{Camera, Method, Oktas, Sky, SkyParams};
 use welkin_tests::{gpu, pack};
 
 /// Its opacities are within 1/2048.

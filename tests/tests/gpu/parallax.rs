@@ -2,10 +2,11 @@
 
 use glam::Vec2;
 use welkin_pack::LayerKind;
-use welkin_runtime::clouds::octaves::HEIGHTS_M;
-use welkin_runtime::clouds::shared::LOW_HEIGHT_M;
-use welkin_runtime::pack_data::PackData;
-use welkin_runtime::{Camera, LitParams, Method, OctaveParams, SkyParams};
+use welkin_runtime::internals::clouds::octaves::HEIGHTS_M;
+use welkin_runtime::internals::clouds::shared::LOW_HEIGHT_M;
+use welkin_runtime::internals::pack_data::PackData;
+use welkin_runtime::params::{LitParams, OctaveParams};
+use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::{gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;

@@ -6,7 +6,8 @@
 use std::path::PathBuf;
 
 use glam::Vec3;
-use welkin_runtime::{Camera, FbmParams, Method, SkyParams};
+use welkin_runtime::params::FbmParams;
+use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::renderer::Twin;
 use welkin_tests::{compare, drivers, gpu, pack};
 

@@ -1,9 +1,8 @@
 //! A frame is a pure function of pack, parameters, camera and seconds.
 
 use welkin_pack::LayerKind;
-use welkin_runtime::{
-    Camera, LitLayer, LitParams, Method, OctaveParams, Sky, SkyModel, SkyParams, SpriteParams,
-};
+use welkin_runtime::params::{LitLayer, LitParams, OctaveParams, SkyModel, SpriteParams};
+use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::{gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -162,7 +161,7 @@ fn what_another_method_is_told_changes_nothing() {
             other.octaves.count = 2;
         }
         if method != Method::Fbm {
-            other.fbm = welkin_runtime::FbmParams::STORMY;
+            other.fbm = welkin_runtime::params::FbmParams::STORMY;
         }
         if !matches!(method, Method::Packed | Method::Sprites) {
             other.upper_layer = 1.0;

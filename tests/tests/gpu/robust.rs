@@ -1,10 +1,11 @@
 //! No parameter, camera, sun or time makes a pixel that is not a finite, positive amount of light.
 
 use welkin_pack::{LayerKind, Pack, mapping};
-use welkin_runtime::{
-    Camera, FbmParams, Lightning, LitLayer, LitParams, Method, OctaveParams, PerezParams,
-    PerezShape, SkyModel, SkyParams, SpriteParams, WeatherParams,
+use welkin_runtime::params::{
+    FbmParams, Lightning, LitLayer, LitParams, OctaveParams, PerezParams, PerezShape, SkyModel,
+    SpriteParams, WeatherParams,
 };
+use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::{gpu, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;

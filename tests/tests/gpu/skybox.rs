@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 use welkin_pack::Pack;
-use welkin_runtime::pack_data::PackData;
+use welkin_runtime::internals::pack_data::PackData;
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::skybox::{self, Skybox};
 use welkin_tests::{camera, compare, gpu, pack};

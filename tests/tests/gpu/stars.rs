@@ -3,10 +3,10 @@
 use glam::{Vec2, Vec3};
 use welkin_pack::mapping::{self, StarPlace};
 use welkin_pack::{Pack, Role, StarTexel};
-use welkin_runtime::clear_sky::galaxy::EXTINCTION;
-use welkin_runtime::clear_sky::stars::{COLD, GALAXY_BOOST, WARM};
-use welkin_runtime::frame::Uniforms;
-use welkin_runtime::pack_data::PackData;
+use welkin_runtime::internals::clear_sky::galaxy::EXTINCTION;
+use welkin_runtime::internals::clear_sky::stars::{COLD, GALAXY_BOOST, WARM};
+use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::internals::pack_data::PackData;
 use welkin_runtime::{Camera, SkyParams};
 use welkin_tests::texture::smoothstep;
 use welkin_tests::{camera, gpu, pack, stars};

@@ -3,13 +3,13 @@
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::Vec3;
-use welkin_runtime::clear_sky::cie;
-use welkin_runtime::clear_sky::light::{Light, luminance};
-use welkin_runtime::clear_sky::perez;
-use welkin_runtime::clear_sky::perez::{Distribution, LEAST_COSINE};
-use welkin_runtime::pack_data::PackData;
+use welkin_runtime::internals::clear_sky::cie;
+use welkin_runtime::internals::clear_sky::light::{Light, luminance};
+use welkin_runtime::internals::clear_sky::perez;
+use welkin_runtime::internals::clear_sky::perez::{Distribution, LEAST_COSINE};
+use welkin_runtime::internals::pack_data::PackData;
 use welkin_runtime::params::{CUSTOM, TURBIDITY};
-use welkin_runtime::{PerezParams, PerezShape};
+use welkin_runtime::params::{PerezParams, PerezShape};
 use welkin_tests::pack;
 use welkin_tests::perez::{colour, direction, hemisphere, linear, overhead, time_of, uniforms};
 

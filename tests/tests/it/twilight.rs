@@ -2,13 +2,14 @@
 
 use glam::Vec3;
 use welkin_pack::Role;
-use welkin_runtime::clear_sky::light::{Light, luminance};
-use welkin_runtime::clear_sky::perez;
-use welkin_runtime::clear_sky::perez::PerezUniforms;
-use welkin_runtime::clear_sky::perez::TWILIGHT_END;
-use welkin_runtime::frame::Uniforms;
-use welkin_runtime::pack_data::PackData;
-use welkin_runtime::{Camera, PerezShape, SkyModel, SkyParams};
+use welkin_runtime::internals::clear_sky::light::{Light, luminance};
+use welkin_runtime::internals::clear_sky::perez;
+use welkin_runtime::internals::clear_sky::perez::PerezUniforms;
+use welkin_runtime::internals::clear_sky::perez::TWILIGHT_END;
+use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::internals::pack_data::PackData;
+use welkin_runtime::params::{PerezShape, SkyModel};
+use welkin_runtime::{Camera, SkyParams};
 use welkin_tests::perez::{colour, hemisphere, linear, overhead, time_of, uniforms};
 use welkin_tests::texture::Texture;
 use welkin_tests::{pack, sky};

@@ -5,12 +5,12 @@
 
 use clap::ValueEnum;
 use welkin_pack::LayerKind;
-use welkin_runtime::params::{MAX_LAYERS, MAX_OCTAVES, MOST_DISTANCE_M};
-use welkin_runtime::sprites::ring;
-use welkin_runtime::{
-    Camera, LitLayer, LitParams, Method, OctaveParams, SkyModel, SkyParams, SpriteParams,
-    WeatherParams,
+use welkin_runtime::internals::sprites::ring;
+use welkin_runtime::params::{
+    LitLayer, LitParams, OctaveParams, SkyModel, SpriteParams, WeatherParams,
 };
+use welkin_runtime::params::{MAX_LAYERS, MAX_OCTAVES, MOST_DISTANCE_M};
+use welkin_runtime::{Camera, Method, SkyParams};
 
 /// With this the lower edge of the frame is 20 degrees above the horizon at its middle, and above it
 /// everywhere, however wide the frame is.
@@ -414,7 +414,9 @@ mod tests {
             // Of an hour-long way the sun takes the same share, wherever it stands at noon.
             let [a, b] = times.map(|time| welkin_pack::mapping::sun_direction(time, 1.0));
             let cosine: f32 = (0..3).map(|i| a[i] * b[i]).sum();
-            assert!(cosine.acos() > 2.0 * welkin_runtime::clouds::fbm::pack::CELL_RAD as f32);
+            assert!(
+                cosine.acos() > 2.0 * welkin_runtime::internals::clouds::fbm::pack::CELL_RAD as f32
+            );
         }
     }
 }

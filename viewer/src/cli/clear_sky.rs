@@ -1,8 +1,8 @@
 //! The options of the clear sky's model.
 
 use clap::{ArgMatches, Args, ValueEnum};
-use welkin_runtime::clear_sky::cie::LAST_OVERCAST;
-use welkin_runtime::{PerezParams, PerezShape, SkyModel};
+use welkin_runtime::internals::clear_sky::cie::LAST_OVERCAST;
+use welkin_runtime::params::{PerezParams, PerezShape, SkyModel};
 
 use super::values::{cie_type, perez, perez_ranges, turbidity};
 use super::{belongs, is_given};

@@ -1,7 +1,8 @@
 //! The options of what clouds are made of, beyond the six parameters.
 
 use clap::{Args, ValueEnum};
-use welkin_runtime::{FbmParams, LitParams, Method, OctaveParams, SkyParams};
+use welkin_runtime::params::{FbmParams, LitParams, OctaveParams};
+use welkin_runtime::{Method, SkyParams};
 
 use super::values::{formation_interval_s, octaves, three_units, unit};
 

@@ -6,7 +6,7 @@ use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use welkin_controls::{LAYERS_FORM, layers, layers_help};
 use welkin_runtime::params::MAX_LAYERS;
-use welkin_runtime::{LitLayer, LitParams};
+use welkin_runtime::params::{LitLayer, LitParams};
 use welkin_viewer::frame::Target;
 use welkin_viewer::save::target_for;
 

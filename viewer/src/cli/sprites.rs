@@ -1,7 +1,7 @@
 //! The options of the sprites method.
 
 use clap::Args;
-use welkin_runtime::SpriteParams;
+use welkin_runtime::params::SpriteParams;
 
 use super::render::MethodName;
 use super::values::{of_sky, unit};

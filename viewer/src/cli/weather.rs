@@ -2,7 +2,7 @@
 
 use clap::Args;
 use welkin_controls::{Flash, LIGHTNING_FORM, lightning};
-use welkin_runtime::WeatherParams;
+use welkin_runtime::params::WeatherParams;
 
 use super::values::unit;
 
@@ -36,7 +36,7 @@ impl WeatherArgs {
 
 #[cfg(test)]
 mod tests {
-    use welkin_runtime::Lightning;
+    use welkin_runtime::params::Lightning;
 
     use crate::cli::{Cli, Command};
 
@@ -102,8 +102,14 @@ mod tests {
                 .unwrap()
                 .lightning;
             assert_eq!(flash.strength, 1.0);
-            let shown = welkin_runtime::weather::lightning::brightness(&flash, at.parse().unwrap());
-            let later = welkin_runtime::weather::lightning::brightness(&flash, flash.start_s + 0.5);
+            let shown = welkin_runtime::internals::weather::lightning::brightness(
+                &flash,
+                at.parse().unwrap(),
+            );
+            let later = welkin_runtime::internals::weather::lightning::brightness(
+                &flash,
+                flash.start_s + 0.5,
+            );
             // As bright as a flash of this strength gets, but for its rise, and far from its end.
             assert!(shown > 0.5 && shown > 2.0 * later, "{shown} {later}");
         }

@@ -2,7 +2,7 @@
 //!
 //! The same tone curve, encoding and dither as [`welkin_runtime::tonemap`], after the means were taken in linear light.
 
-use welkin_runtime::tonemap::{KNEE, SHOULDER};
+use welkin_runtime::internals::tonemap::{KNEE, SHOULDER};
 
 use crate::frame::{Frame, Pixels};
 

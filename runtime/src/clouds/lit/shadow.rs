@@ -18,7 +18,7 @@
 //!
 //! ```no_run
 //! # fn f(device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, sky: &mut welkin_runtime::Sky, uniforms: &wgpu::Buffer, layout: &wgpu::BindGroupLayout, sampler: &wgpu::Sampler) {
-//! use welkin_runtime::clouds::lit::shadow;
+//! use welkin_runtime::shadow;
 //! use welkin_runtime::{Camera, Method, SkyParams};
 //! // Once: the function joins the shader of the ground, which multiplies its direct light by
 //! // cloud_shadow(shadow_map, linear_clamp_sampler, ground.shadow_area, position.xz)

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use welkin_pack::Pack;
-use welkin_runtime::{SkyParams, SpriteParams};
+use welkin_runtime::SkyParams;
+use welkin_runtime::params::SpriteParams;
 use welkin_tests::{gpu, pack};
 
 use super::{mean_difference, params, view, without_ring};

@@ -1,7 +1,8 @@
 //! Clouds form from their middle, and cover brings them.
 
 use glam::{DVec3, Vec3};
-use welkin_runtime::{Method, SkyError, SkyParams, SpriteParams};
+use welkin_runtime::params::SpriteParams;
+use welkin_runtime::{Method, SkyError, SkyParams};
 use welkin_tests::{gpu, pack};
 
 use super::{field, mean_difference, params, view, without_ring};

@@ -11,7 +11,8 @@ mod scene;
 mod twins;
 
 use glam::{DVec3, Vec3};
-use welkin_runtime::{Camera, Method, SkyParams, SpriteParams};
+use welkin_runtime::params::SpriteParams;
+use welkin_runtime::{Camera, Method, SkyParams};
 
 /// A fair day of sprites alone: no dither, flare, wind, sun or stars.
 fn params() -> SkyParams {

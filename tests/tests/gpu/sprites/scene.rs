@@ -1,9 +1,9 @@
 //! The CPU's part of a frame: what it draws, and that it allocates nothing.
 
 use glam::DVec3;
-use welkin_runtime::sprites::grid::{BlockId, around};
-use welkin_runtime::sprites::instances::Instance;
-use welkin_runtime::sprites::scene::Scene;
+use welkin_runtime::internals::sprites::grid::{BlockId, around};
+use welkin_runtime::internals::sprites::instances::Instance;
+use welkin_runtime::internals::sprites::scene::Scene;
 use welkin_tests::pack;
 
 use super::params;

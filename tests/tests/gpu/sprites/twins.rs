@@ -2,13 +2,14 @@
 
 use glam::{DVec3, Vec2, Vec3};
 use welkin_pack::Role;
-use welkin_runtime::sprites::formation;
-use welkin_runtime::sprites::grid::{BlockId, around};
-use welkin_runtime::sprites::instances::{Instance, sections};
-use welkin_runtime::sprites::outline::{BOXES_BEYOND_M, outlines};
-use welkin_runtime::sprites::pipelines::SpriteBlock;
-use welkin_runtime::sprites::ring::SpriteView;
-use welkin_runtime::{Camera, Lightning, SkyModel, SkyParams, SpriteParams};
+use welkin_runtime::internals::sprites::formation;
+use welkin_runtime::internals::sprites::grid::{BlockId, around};
+use welkin_runtime::internals::sprites::instances::{Instance, sections};
+use welkin_runtime::internals::sprites::outline::{BOXES_BEYOND_M, outlines};
+use welkin_runtime::internals::sprites::pipelines::SpriteBlock;
+use welkin_runtime::internals::sprites::ring::SpriteView;
+use welkin_runtime::params::{Lightning, SkyModel, SpriteParams};
+use welkin_runtime::{Camera, SkyParams};
 use welkin_tests::renderer::{FILTER_STEP, Frame, Twin};
 use welkin_tests::sprites::{Inputs, Placed, along, placed};
 use welkin_tests::texture::Texture;

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 use welkin_pack::mapping;
-use welkin_runtime::weather::lightning;
+use welkin_runtime::internals::weather::lightning;
 use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::renderer::{Frame, Twin};
 use welkin_tests::{camera, dome, gpu, pack};

@@ -7,9 +7,8 @@ mod rays;
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::Vec3;
-use welkin_runtime::{
-    Camera, DepthConfig, Lightning, Method, Sky, SkyConfig, SkyModel, SkyParams, WeatherParams,
-};
+use welkin_runtime::params::{Lightning, SkyModel, WeatherParams};
+use welkin_runtime::{Camera, DepthConfig, Method, Sky, SkyConfig, SkyParams};
 use welkin_tests::renderer::{Frame, Twin};
 use welkin_tests::{compare, gpu, pack};
 

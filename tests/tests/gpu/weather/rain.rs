@@ -3,7 +3,7 @@
 use std::f32::consts::FRAC_PI_2;
 
 use glam::Vec3;
-use welkin_runtime::frame::Uniforms;
+use welkin_runtime::internals::frame::Uniforms;
 use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::renderer::{Frame, Twin};
 use welkin_tests::{gpu, pack, rain};

@@ -3,7 +3,7 @@
 use std::f32::consts::TAU;
 
 use glam::Vec3;
-use welkin_runtime::weather::rays::{GAIN, REACH};
+use welkin_runtime::internals::weather::rays::{GAIN, REACH};
 use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::renderer::Twin;
 use welkin_tests::{gpu, pack, rays};

@@ -1,5 +1,5 @@
 use welkin_controls::{Input, KEYS, Key, Settings};
-use welkin_runtime::{FbmParams, OctaveParams, SkyModel};
+use welkin_runtime::params::{FbmParams, OctaveParams, SkyModel};
 
 use super::*;
 use crate::cli::{Cli, Command};
@@ -268,7 +268,7 @@ fn options_of_sprites_reach_the_sky_and_have_their_ranges() {
         "--formation",
         "0.6",
     ]);
-    let wanted = welkin_runtime::SpriteParams {
+    let wanted = welkin_runtime::params::SpriteParams {
         behind: Method::Lit,
         behind_cover: 0.3,
         distance_m: 40_000.0,

@@ -3,7 +3,7 @@
 use egui::{ComboBox, DragValue, Ui};
 use welkin_controls::{Key, Settings};
 use welkin_pack::LayerKind;
-use welkin_runtime::LitLayer;
+use welkin_runtime::params::LitLayer;
 use welkin_runtime::params::MAX_LAYERS;
 
 /// The least share, with which a layer is still there.
