@@ -1,0 +1,135 @@
+//! Each method that is compiled in draws a sky that changes with its parameters as it should.
+
+use std::ops::ControlFlow;
+use std::sync::OnceLock;
+
+use welkin_baker::Recipe;
+use welkin_pack::Pack;
+use welkin_runtime::params::SkyModel;
+use welkin_runtime::{Camera, Method, Sky, SkyConfig, SkyParams, wgpu};
+
+/// Small textures: what is asked here is which way a picture changes.
+const RECIPE: &str = "[clouds]\nsize = 64\n[stars]\nsize = 64\ncount = 50\n[galaxy]\nsize = 32\n[fbm]\nsize = 128\n\
+     [flares]\nsize = 64\n[layers]\nsize = 64\n[sprites]\nsize = 128\n";
+
+const SIZE: [u32; 2] = [64, 32];
+
+fn pack() -> &'static Pack {
+    static PACK: OnceLock<Pack> = OnceLock::new();
+    PACK.get_or_init(|| {
+        let recipe = Recipe::parse("small", RECIPE).and_then(|r| r.resolve(None));
+        let goes_on = |_: welkin_baker::Progress<'_>| ControlFlow::Continue(());
+        welkin_baker::bake(&recipe.unwrap(), None, &goes_on).unwrap()
+    })
+}
+
+fn open() -> (wgpu::Device, wgpu::Queue) {
+    let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+    let instance = wgpu::Instance::new(descriptor);
+    pollster::block_on(async {
+        let adapter = instance.request_adapter(&Default::default()).await.unwrap();
+        let limits = wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits());
+        let descriptor = wgpu::DeviceDescriptor {
+            required_limits: limits,
+            ..Default::default()
+        };
+        adapter.request_device(&descriptor).await.unwrap()
+    })
+}
+
+/// The mean red, green and blue, 0..255, of the frames that parameters give, seen from below with the sun at the back.
+fn means(frames: &[SkyParams]) -> Vec<[f32; 3]> {
+    let (device, queue) = open();
+    let config = SkyConfig {
+        target_format: wgpu::TextureFormat::Rgba8Unorm,
+        depth: None,
+        sample_count: 1,
+    };
+    let mut sky = Sky::new(&device, &queue, config, pack()).unwrap();
+    let [width, height] = SIZE;
+    let size = wgpu::Extent3d {
+        width,
+        height,
+        depth_or_array_layers: 1,
+    };
+    let target = device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: config.target_format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let view = target.create_view(&Default::default());
+    let camera = Camera::looking(0.0, 0.7, 1.0, SIZE);
+    let frame = |params: &SkyParams| {
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: u64::from(4 * width * height),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = device.create_command_encoder(&Default::default());
+        sky.prepare(&queue, &mut encoder, params, &camera, 10.0);
+        {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations::default(),
+                })],
+                ..Default::default()
+            });
+            sky.draw(&mut pass);
+        }
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            // 64 pixels are the 256 bytes that rows go by.
+            bytes_per_row: Some(4 * width),
+            rows_per_image: None,
+        };
+        let into = wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout,
+        };
+        encoder.copy_texture_to_buffer(target.as_image_copy(), into, size);
+        queue.submit([encoder.finish()]);
+        buffer.slice(..).map_async(wgpu::MapMode::Read, |_| {});
+        device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
+        let bytes = buffer.slice(..).get_mapped_range().unwrap().to_vec();
+        let pixels = bytes.len() as f32 / 4.0;
+        [0, 1, 2].map(|i| {
+            let channel = bytes.iter().skip(i).step_by(4);
+            channel.map(|&v| f32::from(v)).sum::<f32>() / pixels
+        })
+    };
+    frames.iter().map(frame).collect()
+}
+
+#[test]
+fn every_method_draws_blue_noons_grey_overcasts_and_dark_nights() {
+    for (method, sky) in Method::ALL
+        .into_iter()
+        .flat_map(|method| SkyModel::ALL.map(|sky| (method, sky)))
+    {
+        let at = |time: f32, cover: f32| SkyParams {
+            method,
+            sky,
+            time,
+            cover,
+            ..SkyParams::default()
+        };
+        let means = means(&[at(0.5, 0.0), at(0.5, 1.0), at(0.0, 0.0)]);
+        let [clear, overcast, night] = means[..] else {
+            unreachable!("as many frames as parameters")
+        };
+        let blueness = |[red, _, blue]: [f32; 3]| blue / red.max(1.0);
+        let name = format!("{} {}", method.name(), sky.name());
+        assert!(blueness(clear) > 1.3, "{name}: {clear:?}");
+        assert!(blueness(overcast) < 1.2, "{name}: {overcast:?}");
+        assert!(night[1] < 0.2 * clear[1], "{name}: {night:?} {clear:?}");
+    }
+}
