@@ -133,7 +133,7 @@ fn steps(image: View, channel: usize, axis: Axis) -> (Vec<f64>, f64) {
     (inside, step(length.max(2) - 2))
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "write"))]
 mod tests {
     use super::*;
     use crate::format::Shape;
