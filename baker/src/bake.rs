@@ -76,8 +76,8 @@ pub fn bake_from(
         recipe: resolved.recipe.clone(),
         inputs: reader.into_hashes(),
         noon_elevation_rad: resolved.sun.noon_elevation_rad,
-        noise: resolved.clouds.noise.entry(),
-        detail: resolved.clouds.detail.entry(),
+        noise: resolved.clouds.noise,
+        detail: resolved.clouds.detail,
     };
     let mut pack = Pack::build(info, sources)?;
     if let Some(field) = field {

@@ -58,9 +58,8 @@ pub use rebake::{REBAKE, RebakeError, rebake};
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
     BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound, FieldSettings,
-    FlareSettings, FractalSettings, GalaxySettings, GradientSettings, LayerSettings,
-    LayersSettings, ModelSettings, ModelSource, PhotoSettings, PlacedSprite, Resolved, SkySettings,
-    SkyboxPicture, SkyboxSettings, SpriteShape, SpriteSource, SpritesSettings, StarSettings,
-    SunSettings,
+    FlareSettings, GalaxySettings, GradientSettings, LayerSettings, LayersSettings, ModelSettings,
+    ModelSource, PhotoSettings, PlacedSprite, Resolved, SkySettings, SkyboxPicture, SkyboxSettings,
+    SpriteShape, SpriteSource, SpritesSettings, StarSettings, SunSettings,
 };
 pub use sound::{recipe_key, verify};

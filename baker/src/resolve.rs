@@ -10,13 +10,14 @@ use std::ops::Range;
 
 use toml::{Spanned, Value};
 use welkin_pack::Format;
+use welkin_pack::manifest::FractalNoise;
 
 use crate::error::RecipeError;
 use crate::recipe::tables::{Entry, Fractal};
 use crate::recipe::{Recipe, line_and_column};
 use crate::settings::{
-    CloudSettings, FbmSettings, FlareSettings, FractalSettings, GalaxySettings, GradientSettings,
-    PhotoSettings, Resolved, SkySettings, StarSettings, SunSettings,
+    CloudSettings, FbmSettings, FlareSettings, GalaxySettings, GradientSettings, PhotoSettings,
+    Resolved, SkySettings, StarSettings, SunSettings,
 };
 
 /// Means of photo and of noise. The power that makes the mean sharpens what is thin and digs pits into what is thick: beyond
@@ -74,13 +75,13 @@ impl Recipe {
 
     fn clouds(&self, size: u32) -> Result<CloudSettings, RecipeError> {
         let c = &self.tables.clouds;
-        let noise = FractalSettings {
+        let noise = FractalNoise {
             cells: 4,
             octaves: 5,
             gain: 0.5,
             mean: 0.26,
         };
-        let detail = FractalSettings {
+        let detail = FractalNoise {
             cells: 16,
             octaves: 3,
             gain: 0.5,
@@ -94,11 +95,11 @@ impl Recipe {
                 size,
                 mean: self.mean("clouds.photo.mean", &c.photo.mean, 0.16, SHAPE_MEANS)?,
             },
-            noise: FractalSettings {
+            noise: FractalNoise {
                 mean: self.mean("clouds.noise.mean", &c.noise.mean, noise.mean, SHAPE_MEANS)?,
                 ..self.fractal("clouds.noise", &c.noise, size, noise)?
             },
-            detail: FractalSettings {
+            detail: FractalNoise {
                 mean: self.mean(
                     "clouds.detail.mean",
                     &c.detail.mean,
@@ -164,10 +165,10 @@ impl Recipe {
         table: &str,
         entry: &Fractal,
         size: u32,
-        default: FractalSettings,
-    ) -> Result<FractalSettings, RecipeError> {
+        default: FractalNoise,
+    ) -> Result<FractalNoise, RecipeError> {
         let key = |name: &str| format!("{table}.{name}");
-        Ok(FractalSettings {
+        Ok(FractalNoise {
             // A cell of fewer than eight texels would not be smooth at the texel.
             cells: self.integer(
                 &key("cells"),

@@ -53,9 +53,9 @@ pub struct CloudSettings {
     /// Red channel.
     pub photo: PhotoSettings,
     /// Green channel.
-    pub noise: FractalSettings,
+    pub noise: FractalNoise,
     /// Blue channel.
-    pub detail: FractalSettings,
+    pub detail: FractalNoise,
     /// Alpha channel.
     pub gradient: GradientSettings,
 }
@@ -69,37 +69,6 @@ pub struct PhotoSettings {
     pub size: u32,
     /// Mean that the channel is calibrated to.
     pub mean: f32,
-}
-
-/// A cloud channel made from periodic fractal noise.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FractalSettings {
-    /// Lattice cells of the first octave across the tile.
-    pub cells: u32,
-    /// Octaves; each doubles the cells of the one before.
-    pub octaves: u32,
-    /// Amplitude of an octave as a share of the one before.
-    pub gain: f32,
-    /// Mean that the channel is calibrated to.
-    pub mean: f32,
-}
-
-impl FractalSettings {
-    /// The same as a manifest tells it.
-    pub fn entry(&self) -> FractalNoise {
-        let &FractalSettings {
-            cells,
-            octaves,
-            gain,
-            mean,
-        } = self;
-        FractalNoise {
-            cells,
-            octaves,
-            gain,
-            mean,
-        }
-    }
 }
 
 /// The sunset gradient.

@@ -4,10 +4,8 @@
 //! physical units are in [`crate::role`] and in every manifest.
 
 mod layers;
-mod sprites;
 
 pub use layers::LayerTexel;
-pub use sprites::SpriteTexel;
 
 use crate::format::Format;
 use crate::texture::{Texture, encode, unorm8};
@@ -23,24 +21,6 @@ pub struct CloudTexel {
     pub detail: f32,
     /// Sunset tint: 0 away from the sun to 1 on the horizon below it.
     pub gradient: f32,
-}
-
-impl CloudTexel {
-    /// The nearest RGBA8 texel.
-    pub fn encode(self) -> [u8; 4] {
-        [self.photo, self.noise, self.detail, self.gradient].map(unorm8)
-    }
-
-    /// Reads an RGBA8 texel.
-    pub fn decode(bytes: [u8; 4]) -> CloudTexel {
-        let [photo, noise, detail, gradient] = bytes.map(|b| f32::from(b) / 255.0);
-        CloudTexel {
-            photo,
-            noise,
-            detail,
-            gradient,
-        }
-    }
 }
 
 /// A texel of the role `stars`: `I(t) = intensity + variance * sin(2 pi (rate t + phase))`.
@@ -81,22 +61,6 @@ impl StarTexel {
         stars.levels.iter().map(unit).collect()
     }
 
-    /// The nearest RGBA8 texel.
-    pub fn encode(self) -> [u8; 4] {
-        [self.intensity, self.rate, self.variance, self.phase].map(unorm8)
-    }
-
-    /// Reads an RGBA8 texel.
-    pub fn decode(bytes: [u8; 4]) -> StarTexel {
-        let [intensity, rate, variance, phase] = bytes.map(|b| f32::from(b) / 255.0);
-        StarTexel {
-            intensity,
-            rate,
-            variance,
-            phase,
-        }
-    }
-
     /// Intensity at `seconds`.
     pub fn intensity_at(self, seconds: f64) -> f32 {
         // Whole 64ths of a hertz: a rounded rate would lose its place after long times.
@@ -112,19 +76,6 @@ impl StarTexel {
 pub struct GalaxyTexel {
     /// Brightness, 0 dark to 1 the brightest.
     pub brightness: f32,
-}
-
-impl GalaxyTexel {
-    /// The nearest R8 texel.
-    pub fn encode(self) -> [u8; 1] {
-        [unorm8(self.brightness)]
-    }
-
-    /// Reads an R8 texel.
-    pub fn decode(bytes: [u8; 1]) -> GalaxyTexel {
-        let [brightness] = bytes.map(|b| f32::from(b) / 255.0);
-        GalaxyTexel { brightness }
-    }
 }
 
 /// A texel of the role `sky`.
@@ -162,19 +113,6 @@ pub struct SunTexel {
     pub glow: f32,
 }
 
-impl SunTexel {
-    /// The nearest RG8 texel.
-    pub fn encode(self) -> [u8; 2] {
-        [self.disc, self.glow].map(unorm8)
-    }
-
-    /// Reads an RG8 texel.
-    pub fn decode(bytes: [u8; 2]) -> SunTexel {
-        let [disc, glow] = bytes.map(|b| f32::from(b) / 255.0);
-        SunTexel { disc, glow }
-    }
-}
-
 /// A texel of the role `octaves`: white noise, every value of a channel equally often.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OctaveTexel {
@@ -209,24 +147,6 @@ pub struct FbmTexel {
     pub noise: f32,
 }
 
-impl FbmTexel {
-    /// The nearest RGBA8 texel.
-    pub fn encode(self) -> [u8; 4] {
-        [self.steps3, self.steps2, self.steps1, self.noise].map(unorm8)
-    }
-
-    /// Reads an RGBA8 texel.
-    pub fn decode(bytes: [u8; 4]) -> FbmTexel {
-        let [steps3, steps2, steps1, noise] = bytes.map(|b| f32::from(b) / 255.0);
-        FbmTexel {
-            steps3,
-            steps2,
-            steps1,
-            noise,
-        }
-    }
-}
-
 /// A texel of the role `flares`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FlareTexel {
@@ -234,17 +154,13 @@ pub struct FlareTexel {
     pub light: f32,
 }
 
-impl FlareTexel {
-    /// The nearest R8 texel.
-    pub fn encode(self) -> [u8; 1] {
-        [unorm8(self.light)]
-    }
-
-    /// Reads an R8 texel.
-    pub fn decode(bytes: [u8; 1]) -> FlareTexel {
-        let [light] = bytes.map(|b| f32::from(b) / 255.0);
-        FlareTexel { light }
-    }
+/// A texel of the role `sprites`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SpriteTexel {
+    /// Shade of the cloud, 0..1; 0.5 is the mean over a sprite, so twice this is a factor on its light.
+    pub grey: f32,
+    /// Opacity, 0..1.
+    pub alpha: f32,
 }
 
 /// A texel of the role `skybox`.
@@ -272,6 +188,32 @@ impl SkyboxTexel {
         }
     }
 }
+
+/// The bytes of a texel each of whose channels is a field.
+macro_rules! bytes {
+    ($texel:ident, $format:literal, $size:literal, $($channel:ident),+) => {
+        impl $texel {
+            #[doc = concat!("The nearest ", $format, " texel.")]
+            pub fn encode(self) -> [u8; $size] {
+                [$(self.$channel),+].map(unorm8)
+            }
+
+            #[doc = concat!("Reads an ", $format, " texel.")]
+            pub fn decode(bytes: [u8; $size]) -> $texel {
+                let [$($channel),+] = bytes.map(|b| f32::from(b) / 255.0);
+                $texel { $($channel),+ }
+            }
+        }
+    };
+}
+
+bytes!(CloudTexel, "RGBA8", 4, photo, noise, detail, gradient);
+bytes!(StarTexel, "RGBA8", 4, intensity, rate, variance, phase);
+bytes!(GalaxyTexel, "R8", 1, brightness);
+bytes!(SunTexel, "RG8", 2, disc, glow);
+bytes!(FbmTexel, "RGBA8", 4, steps3, steps2, steps1, noise);
+bytes!(FlareTexel, "R8", 1, light);
+bytes!(SpriteTexel, "RG8", 2, grey, alpha);
 
 fn halves(values: [f32; 4]) -> [u8; 8] {
     let mut bytes = [0; 8];

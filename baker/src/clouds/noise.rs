@@ -1,10 +1,10 @@
 //! The noise and detail channels: periodic fractal noise.
 
 use welkin_pack::Image;
+use welkin_pack::manifest::FractalNoise;
 
 use crate::filter;
 use crate::fractal::{Fractal, Octaves};
-use crate::settings::FractalSettings;
 use crate::stream::Stream;
 
 /// Share of the texels that is clipped to 0.
@@ -18,7 +18,7 @@ const OUTLIER: f32 = 4.0;
 const FLAT: f32 = 1e-3;
 
 /// A channel of `size` texels a side that tiles, with the settings' mean. `name` is its random stream.
-pub(crate) fn channel(settings: &FractalSettings, size: u32, seed: u64, name: &str) -> Image {
+pub(crate) fn channel(settings: &FractalNoise, size: u32, seed: u64, name: &str) -> Image {
     let cells = [f64::from(settings.cells); 2];
     let octaves = Octaves::new(settings.octaves, settings.gain);
     let mut stream = Stream::new(seed, name);

@@ -2,7 +2,7 @@
 
 use welkin_pack::check::{Finding, Outcome, Rule, Severity};
 
-/// The rule of [`crate::rebake`]'s findings.
+/// The rule of [`rebake`](crate::rebake())'s findings.
 pub const REBAKE: Rule = Rule {
     id: "rebake",
     severity: Severity::Error,

@@ -124,8 +124,8 @@ fn info(resolved: &Resolved) -> PackInfo {
         recipe: resolved.recipe.clone(),
         inputs: Vec::new(),
         noon_elevation_rad: resolved.sun.noon_elevation_rad,
-        noise: resolved.clouds.noise.entry(),
-        detail: resolved.clouds.detail.entry(),
+        noise: resolved.clouds.noise,
+        detail: resolved.clouds.detail,
     }
 }
 

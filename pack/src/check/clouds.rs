@@ -2,7 +2,7 @@
 
 mod character;
 
-use super::report::{Bound, Report, subject};
+use super::report::{Report, subject};
 use super::rule::{
     CLOUD_APART, CLOUD_BAND, CLOUD_CLEAR, CLOUD_COVER, CLOUD_MEAN, CLOUD_SPREAD, CLOUD_WAVES,
     GRADIENT_ENDS, GRADIENT_MONOTONE, GRADIENT_STEP,
@@ -56,11 +56,11 @@ pub(super) fn check(report: &mut Report, texture: &Texture, entry: Option<&Textu
         tiling::check_smooth(report, Role::Clouds, texture, channel, wave);
         // A channel of two values with mean 0.5 has spread 0.5; one of a dozen byte steps about 0.02.
         let spread = f64::from(texture.view(0, 0).mean_and_spread(channel).1);
-        report.measure(
+        report.within(
             CLOUD_SPREAD,
             &subject(Role::Clouds, channel),
             spread,
-            Bound::Within(0.04, 0.40),
+            [0.04, 0.40],
         );
     }
     check_cover(report, texture);
@@ -86,7 +86,7 @@ fn check_character(report: &mut Report, texture: &Texture, entry: Option<&Textur
         match least {
             Some(least) => {
                 let waves = character::waves(&spectrum);
-                report.measure(CLOUD_WAVES, &name, waves, Bound::AtLeast(least));
+                report.at_least(CLOUD_WAVES, &name, waves, least);
             }
             None => report.skip(
                 CLOUD_WAVES,
@@ -111,11 +111,11 @@ fn check_character(report: &mut Report, texture: &Texture, entry: Option<&Textur
         let cells = [a, b].map(|c| Some(entry?.channels.get(c)?.fractal?.cells));
         let are_few = cells.iter().any(|n| n.is_some_and(|n| n < FEW_CELLS));
         let most = if are_few { MOST_ALIKE_FEW } else { MOST_ALIKE };
-        report.measure(
+        report.at_most(
             CLOUD_APART,
             &format!("{} {first}, {second}", Role::Clouds.name()),
             character::likeness(&ranks[a], &ranks[b]),
-            Bound::AtMost(most),
+            most,
         );
     }
 }
@@ -127,14 +127,9 @@ fn check_clear(report: &mut Report, image: View, channel: usize) {
     let clear = image.channel(channel).filter(|v| *v == 0.0).count() as f64;
     // The share of ranks below the quantile, whose rank is rounded.
     let least = (CLEAR_SHARES[channel] * (count - 1.0) - 0.5).max(1.0) / count;
-    report.measure(CLOUD_CLEAR, &name, clear / count, Bound::AtLeast(least));
+    report.at_least(CLOUD_CLEAR, &name, clear / count, least);
     let peak = image.channel(channel).fold(0.0, f32::max);
-    report.measure(
-        CLOUD_CLEAR,
-        &format!("{name} peak"),
-        f64::from(peak),
-        Bound::Within(1.0, 1.0),
-    );
+    report.within(CLOUD_CLEAR, &format!("{name} peak"), peak, [1.0, 1.0]);
 }
 
 fn check_fractal(
@@ -150,20 +145,20 @@ fn check_fractal(
     let clear = image.channel(channel).filter(|v| *v < 2.5 / 255.0).count() as f64
         / (f64::from(image.width) * f64::from(image.height));
     let [below, above] = character::band_slack(noise, clear);
-    report.measure(
+    report.within(
         CLOUD_BAND,
         &name,
         character::band(spectrum),
-        Bound::Within(expected - below, expected + above),
+        [expected - below, expected + above],
     );
     // The bake meets it to a thousandth; bytes round by half a step, all the same way at worst.
     let (mean, declared) = (image.mean_and_spread(channel).0, noise.mean);
     let slack = 0.001 + 0.5 / 255.0;
-    report.measure(
+    report.within(
         CLOUD_MEAN,
         &name,
-        f64::from(mean),
-        Bound::Within(f64::from(declared) - slack, f64::from(declared) + slack),
+        mean,
+        [f64::from(declared) - slack, f64::from(declared) + slack],
     );
 }
 
@@ -201,18 +196,8 @@ fn check_cover(report: &mut Report, texture: &Texture) {
         }
         share
     };
-    report.measure(
-        CLOUD_COVER,
-        "cover 0.25",
-        share(1.0 - FEW),
-        Bound::AtMost(BROKEN),
-    );
-    report.measure(
-        CLOUD_COVER,
-        "overcast",
-        share(THIN / 2.0),
-        Bound::AtLeast(LEAST_OVERCAST),
-    );
+    report.at_most(CLOUD_COVER, "cover 0.25", share(1.0 - FEW), BROKEN);
+    report.at_least(CLOUD_COVER, "overcast", share(THIN / 2.0), LEAST_OVERCAST);
 }
 
 fn histogram(texture: &Texture, channel: usize) -> Vec<f64> {
@@ -241,17 +226,12 @@ fn check_gradient(report: &mut Report, texture: &Texture) {
             ends = ends.max(at(0, 0)).max(1.0 - at(0, image.height - 1));
         }
     }
-    report.measure(
-        GRADIENT_MONOTONE,
-        &name,
-        f64::from(fall),
-        Bound::AtMost(0.0),
-    );
-    report.measure(
+    report.at_most(GRADIENT_MONOTONE, &name, fall, 0.0);
+    report.at_most(
         GRADIENT_ENDS,
         &name,
-        f64::from(ends),
-        Bound::AtMost(f64::from(texture.format.quantisation_error(1.0))),
+        ends,
+        f64::from(texture.format.quantisation_error(1.0)),
     );
     let image = texture.view(0, 0);
     let step = (1..image.height)
@@ -265,5 +245,5 @@ fn check_gradient(report: &mut Report, texture: &Texture) {
         1.0 / 255.0
     };
     let most = (4.0 / f64::from(image.height)).max(1.0 / 128.0) + rounding;
-    report.measure(GRADIENT_STEP, &name, f64::from(step), Bound::AtMost(most));
+    report.at_most(GRADIENT_STEP, &name, step, most);
 }

@@ -29,11 +29,11 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
             .map(|view| displacement(*view, channel))
             .fold(0.0, f32::max);
         // Both come from the same numbers, so a step of a byte is rounding.
-        report.measure(
+        report.at_most(
             DISPLACED,
             &subject(Role::Fbm, channel),
-            f64::from(worst),
-            Bound::AtMost(1.001 / 255.0),
+            worst,
+            1.001 / 255.0,
         );
     }
     for channel in 0..=NOISE {

@@ -50,7 +50,7 @@ fn check_sizes(report: &mut Report, field: &Field) {
         f64::from(sides.fold(0.0, f32::max)) / f64::from(cloud.radius_m())
     });
     let largest = largest.fold(0.0, f64::max);
-    report.measure(FIELD_SIZE, SUBJECT, largest, Bound::AtMost(MOST_RADII));
+    report.at_most(FIELD_SIZE, SUBJECT, largest, MOST_RADII);
     // Ranks are shares of ground, and few clouds cover none that is free.
     let ranks = field.clouds.iter().map(|cloud| cloud.rank);
     let [least, most] = [ranks.clone().fold(1.0, f32::min), ranks.fold(0.0, f32::max)];
@@ -72,7 +72,7 @@ const LEAST_LIGHT: f64 = Hour::LEAST_LIGHT as f64;
 fn check_light(report: &mut Report, field: &Field) {
     let light = field.hours.iter().map(Hour::light);
     let brightest = f64::from(light.fold(0.0, f32::max));
-    report.measure(FIELD_LIGHT, SUBJECT, brightest, Bound::AtLeast(LEAST_LIGHT));
+    report.at_least(FIELD_LIGHT, SUBJECT, brightest, LEAST_LIGHT);
 }
 
 fn check_counts(report: &mut Report, field: &Field) {

@@ -1,10 +1,10 @@
 //! The files of a pack: seal, manifest, hashes, containers, layouts.
 
+use super::field;
 use super::report::{Report, subject};
 use super::rule::{
     CONTAINER, FIELD_FILE, FILE_HASH, LAYOUT, MANIFEST, ROLES, Rule, SEAL, STATISTICS, TEXEL_HASH,
 };
-use super::{field, report::Bound};
 use crate::error::PackError;
 use crate::field::{Field, glb};
 use crate::ktx;
@@ -42,7 +42,7 @@ pub(super) fn check(
         .is_some();
     for role in Role::ALL.into_iter().filter(|role| !role.is_optional()) {
         let found = f64::from(u8::from(manifest.texture(role).is_some()));
-        report.measure(ROLES, role.name(), found, Bound::AtLeast(1.0));
+        report.at_least(ROLES, role.name(), found, 1.0);
     }
     if !sound {
         for rule in [FILE_HASH, CONTAINER, LAYOUT, TEXEL_HASH, STATISTICS] {
@@ -132,11 +132,6 @@ fn check_statistics(report: &mut Report, entry: &TextureEntry, texture: &Texture
             .abs()
             .max((spread - channel.spread).abs());
         let scale = 1.0_f32.max(mean.abs());
-        report.measure(
-            STATISTICS,
-            &subject(entry.role, index),
-            f64::from(apart / scale),
-            Bound::AtMost(1e-5),
-        );
+        report.at_most(STATISTICS, &subject(entry.role, index), apart / scale, 1e-5);
     }
 }

@@ -1,6 +1,6 @@
 //! Whether what half floats store are numbers.
 
-use super::report::{Bound, Report};
+use super::report::Report;
 use super::rule::FINITE;
 use crate::format::Format;
 use crate::role::Role;
@@ -18,6 +18,6 @@ pub(super) fn check(report: &mut Report, role: Role, texture: &Texture) -> bool 
         .iter()
         .flat_map(|level| level.chunks_exact(2));
     let wrong = halves.filter(|half| is_wrong(half)).count();
-    report.measure(FINITE, role.name(), wrong as f64, Bound::AtMost(0.0));
+    report.at_most(FINITE, role.name(), wrong as f64, 0.0);
     wrong == 0
 }

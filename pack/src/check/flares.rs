@@ -26,21 +26,21 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
                 brightest_border = brightest_border.max(light);
             }
         }
-        report.measure(
+        report.at_least(
             FLARE_CELLS,
             &format!("{NAME} {}", part.name()),
-            f64::from(brightest),
-            Bound::AtLeast(0.5),
+            brightest,
+            0.5,
         );
     }
     for part in FlareCell::ALL {
         check_shape(report, image, part);
     }
-    report.measure(
+    report.at_most(
         FLARE_CELLS,
         &format!("{NAME} borders"),
-        f64::from(brightest_border),
-        Bound::AtMost(0.0),
+        brightest_border,
+        0.0,
     );
 }
 

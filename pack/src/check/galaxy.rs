@@ -1,6 +1,6 @@
 //! The galaxy map.
 
-use super::report::{Bound, Report};
+use super::report::Report;
 use super::rule::{GALAXY_BAND, GALAXY_BRIGHTNESS};
 use crate::mapping::galaxy_uv_to_direction;
 use crate::role::Role;
@@ -29,19 +29,9 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         }
     }
     let name = Role::Galaxy.name();
-    report.measure(
-        GALAXY_BRIGHTNESS,
-        &format!("{name} peak"),
-        f64::from(brightest),
-        Bound::AtLeast(0.25),
-    );
-    report.measure(
-        GALAXY_BRIGHTNESS,
-        &format!("{name} mean"),
-        sum / count,
-        Bound::AtMost(0.5),
-    );
-    report.measure(GALAXY_BAND, name, across(image), Bound::AtMost(MOST_ACROSS));
+    report.at_least(GALAXY_BRIGHTNESS, &format!("{name} peak"), brightest, 0.25);
+    report.at_most(GALAXY_BRIGHTNESS, &format!("{name} mean"), sum / count, 0.5);
+    report.at_most(GALAXY_BAND, name, across(image), MOST_ACROSS);
 }
 
 /// The smallest eigenvalue of the mean of `d d^T` over directions `d`, weighted by brightness: the mean square of the sine of

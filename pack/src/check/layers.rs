@@ -3,7 +3,7 @@
 mod normals;
 
 use super::chance::unevenness;
-use super::report::{Bound, Report, subject};
+use super::report::{Report, subject};
 use super::rule::{
     CLOUD_SPREAD, LAYER_MEAN, NORMAL_SLOPE, NORMAL_UNIT, RANK_FLAT, RANK_ORDER, SEAM,
 };
@@ -35,12 +35,7 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
     for channel in [DENSITY, RANK] {
         // Normals are shown to be periodic differences.
         let seam = tiling::seam(texture, channel);
-        report.measure(
-            SEAM,
-            &subject(Role::Layers, channel),
-            seam,
-            Bound::AtMost(MOST_SEAM),
-        );
+        report.at_most(SEAM, &subject(Role::Layers, channel), seam, MOST_SEAM);
         tiling::check_smooth(report, Role::Layers, texture, channel, WAVE_TEXELS);
     }
     for (layer, kind) in (0..texture.layers).zip(LayerKind::ALL) {
@@ -61,42 +56,37 @@ fn check_amounts(report: &mut Report, level: View, kind: LayerKind) {
     let name = format!("{} {}", subject(Role::Layers, DENSITY), kind.name());
     let (density, spread) = level.mean_and_spread(DENSITY);
     // As wide as the channels of the role `clouds`.
-    report.measure(
-        CLOUD_SPREAD,
-        &name,
-        f64::from(spread),
-        Bound::Within(0.04, 0.40),
-    );
+    report.within(CLOUD_SPREAD, &name, spread, [0.04, 0.40]);
     // The bake meets it to a thousandth; bytes round by half a step, all the same way at worst.
     let mean = f64::from(kind.mean_density());
     let slack = 0.001 + 0.5 / 255.0;
-    report.measure(
+    report.within(
         LAYER_MEAN,
         &layer_name(kind),
-        f64::from(density),
-        Bound::Within(mean - slack, mean + slack),
+        density,
+        [mean - slack, mean + slack],
     );
 }
 
 fn check_normals(report: &mut Report, levels: &[View], kind: LayerKind) {
     let name = layer_name(kind);
     let length = normals::longest(levels[0]);
-    report.measure(NORMAL_UNIT, &name, length, Bound::AtMost(1.0));
+    report.at_most(NORMAL_UNIT, &name, length, 1.0);
     let steps = levels.windows(2);
     let steps = steps.map(|pair| normals::off_the_mean(pair[0], pair[1]));
-    report.measure(
+    report.at_most(
         NORMAL_UNIT,
         &format!("{name} levels"),
         steps.fold(0.0, f64::max),
-        Bound::AtMost(1.0),
+        1.0,
     );
     let disagreement = normals::disagreement(levels[0], DENSITY);
-    report.measure(NORMAL_SLOPE, &name, disagreement, Bound::AtMost(1.0));
-    report.measure(
+    report.at_most(NORMAL_SLOPE, &name, disagreement, 1.0);
+    report.at_least(
         NORMAL_SLOPE,
         &format!("{name} relief"),
         normals::relief(levels[0]),
-        Bound::AtLeast(LEAST_RELIEF),
+        LEAST_RELIEF,
     );
 }
 
@@ -105,9 +95,9 @@ fn check_ranks(report: &mut Report, image: View, kind: LayerKind) {
     let pairs = image.texels();
     let pairs = pairs.map(|texel| [texel[DENSITY], texel[RANK]].map(unorm8));
     let uneven = unevenness(pairs.clone().map(|[_, rank]| rank));
-    report.measure(RANK_FLAT, &name, uneven as f64, Bound::AtMost(0.0));
+    report.at_most(RANK_FLAT, &name, uneven as f64, 0.0);
     let fall = f64::from(largest_fall(pairs));
-    report.measure(RANK_ORDER, &name, fall, Bound::AtMost(0.0));
+    report.at_most(RANK_ORDER, &name, fall, 0.0);
 }
 
 /// By how many steps the rank of a texel is above that of a denser one at most.

@@ -1,6 +1,6 @@
 //! Levels are means of those above them.
 
-use super::report::{Bound, Report, subject};
+use super::report::{Report, subject};
 use super::rule::{LEVEL_MEAN, MIP_MEAN};
 use crate::format::Format;
 use crate::role::Role;
@@ -40,10 +40,9 @@ pub(super) fn check(report: &mut Report, role: Role, texture: &Texture) {
     }
     for (i, channel) in channels.into_iter().enumerate() {
         let name = subject(role, channel);
-        let most = Bound::AtMost(1.0);
-        report.measure(MIP_MEAN, &name, drifts[i].into(), most);
+        report.at_most(MIP_MEAN, &name, drifts[i], 1.0);
         // Seven digits of the mean.
-        report.measure(LEVEL_MEAN, &name, steps[i], Bound::AtMost(1.0001));
+        report.at_most(LEVEL_MEAN, &name, steps[i], 1.0001);
     }
 }
 

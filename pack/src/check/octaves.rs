@@ -4,7 +4,7 @@
 //! such a channel once in a million.
 
 use super::chance::{FALSE_ALARMS, chi_squared_deviate, unevenness};
-use super::report::{Bound, Report, subject};
+use super::report::{Report, subject};
 use super::rule::{NOISE_FLAT, NOISE_WHITE};
 use super::spectrum::Spectrum;
 use crate::role::Role;
@@ -27,11 +27,11 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
 fn check_flat(report: &mut Report, texture: &Texture, channel: usize) {
     let channels = texture.format.channels();
     let texels = texture.levels[0].iter().skip(channel).step_by(channels);
-    report.measure(
+    report.at_most(
         NOISE_FLAT,
         &subject(Role::Octaves, channel),
         unevenness(texels.copied()) as f64,
-        Bound::AtMost(0.0),
+        0.0,
     );
 }
 
@@ -48,11 +48,11 @@ fn check_white(report: &mut Report, texture: &Texture, channel: usize) {
     let mean = total / vectors as f64;
     // Of two conjugate vectors one says all.
     let most = libm::log(vectors as f64 / 2.0 / FALSE_ALARMS);
-    report.measure(
+    report.at_most(
         NOISE_WHITE,
         &format!("{name} peak"),
         spectrum.peak() / mean,
-        Bound::AtMost(most),
+        most,
     );
     let worst = BANDS
         .map(|[first, last]| {
@@ -61,10 +61,5 @@ fn check_white(report: &mut Report, texture: &Texture, channel: usize) {
         })
         .into_iter()
         .fold(0.0, f64::max);
-    report.measure(
-        NOISE_WHITE,
-        &format!("{name} bands"),
-        worst,
-        Bound::AtMost(BAND_Z),
-    );
+    report.at_most(NOISE_WHITE, &format!("{name} bands"), worst, BAND_Z);
 }

@@ -129,21 +129,49 @@ impl Report {
         self.findings.sort_by_key(|finding| order(finding.rule));
     }
 
+    /// Records a figure that should be no more than `most`.
+    pub(super) fn at_most(&mut self, rule: Rule, subject: &str, figure: impl Into<f64>, most: f64) {
+        self.measure(rule, subject, figure, Bound::AtMost(most));
+    }
+
+    /// Records a figure that should be no less than `least`.
+    pub(super) fn at_least(
+        &mut self,
+        rule: Rule,
+        subject: &str,
+        figure: impl Into<f64>,
+        least: f64,
+    ) {
+        self.measure(rule, subject, figure, Bound::AtLeast(least));
+    }
+
+    /// Records a figure that should be within two.
+    pub(super) fn within(
+        &mut self,
+        rule: Rule,
+        subject: &str,
+        figure: impl Into<f64>,
+        [least, most]: [f64; 2],
+    ) {
+        self.measure(rule, subject, figure, Bound::Within(least, most));
+    }
+
     /// Records a figure and compares it with what it should be.
-    pub(super) fn measure(&mut self, rule: Rule, subject: &str, figure: f64, bound: Bound) {
+    pub(super) fn measure(
+        &mut self,
+        rule: Rule,
+        subject: &str,
+        figure: impl Into<f64>,
+        bound: Bound,
+    ) {
+        let figure = figure.into();
         let outcome = if bound.holds(figure) {
             Outcome::Passed
         } else {
             Outcome::Failed
         };
-        self.push(
-            rule,
-            subject,
-            outcome,
-            Some(figure),
-            bound.to_string(),
-            String::new(),
-        );
+        let texts = [bound.to_string(), String::new()];
+        self.push(rule, subject, outcome, Some(figure), texts);
     }
 
     /// Records that something holds, or the error that says why not.
@@ -153,42 +181,18 @@ impl Report {
         subject: &str,
         result: Result<T, E>,
     ) -> Option<T> {
-        match result {
-            Ok(value) => {
-                self.push(
-                    rule,
-                    subject,
-                    Outcome::Passed,
-                    None,
-                    String::new(),
-                    String::new(),
-                );
-                Some(value)
-            }
-            Err(error) => {
-                self.push(
-                    rule,
-                    subject,
-                    Outcome::Failed,
-                    None,
-                    String::new(),
-                    error.to_string(),
-                );
-                None
-            }
-        }
+        let (outcome, note) = match &result {
+            Ok(_) => (Outcome::Passed, String::new()),
+            Err(error) => (Outcome::Failed, error.to_string()),
+        };
+        self.push(rule, subject, outcome, None, [String::new(), note]);
+        result.ok()
     }
 
     /// Records that a rule could not be looked at.
     pub(super) fn skip(&mut self, rule: Rule, subject: &str, why: &str) {
-        self.push(
-            rule,
-            subject,
-            Outcome::Skipped,
-            None,
-            String::new(),
-            why.to_string(),
-        );
+        let texts = [String::new(), why.to_string()];
+        self.push(rule, subject, Outcome::Skipped, None, texts);
     }
 
     fn push(
@@ -197,14 +201,12 @@ impl Report {
         subject: &str,
         outcome: Outcome,
         figure: Option<f64>,
-        expected: String,
-        note: String,
+        [expected, note]: [String; 2],
     ) {
-        let subject = subject.to_string();
         self.findings.push(Finding {
             rule: rule.id,
             severity: rule.severity,
-            subject,
+            subject: subject.to_string(),
             outcome,
             figure,
             expected,

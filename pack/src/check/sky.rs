@@ -1,6 +1,6 @@
 //! The day gradient.
 
-use super::report::{Bound, Report};
+use super::report::Report;
 use super::rule::{SKY_COLOUR, SKY_DAY, SKY_HOURS, SKY_NIGHT, SKY_RANGE, SKY_STEP};
 use crate::mapping::{night_share, sun_direction};
 use crate::role::Role;
@@ -20,7 +20,7 @@ pub(super) fn check(report: &mut Report, texture: &Texture, noon_elevation_rad: 
         .texels()
         .flat_map(|[red, green, blue, _]| [red, green, blue]);
     let wrong = colours.filter(|v| !v.is_finite() || *v < 0.0).count();
-    report.measure(SKY_RANGE, NAME, wrong as f64, Bound::AtMost(0.0));
+    report.at_most(SKY_RANGE, NAME, wrong as f64, 0.0);
     if wrong > 0 {
         for rule in [SKY_NIGHT, SKY_HOURS, SKY_COLOUR, SKY_DAY, SKY_STEP] {
             report.skip(rule, NAME, "the radiance is not sound");
@@ -40,18 +40,18 @@ pub(super) fn check(report: &mut Report, texture: &Texture, noon_elevation_rad: 
     // A clear sky by day is some ten million times brighter than by night; adapted eyes see far less.
     let is_night = noon_elevation_rad.is_none_or(|noon| noon.to_degrees() > CIVIL_DEG);
     let least = if is_night { 8.0 } else { 2.0 };
-    report.measure(
+    report.at_least(
         SKY_DAY,
         "noon / midnight",
         mean(noon) / mean(midnight).max(1e-6),
-        Bound::AtLeast(least),
+        least,
     );
     let zenith = luminance(image, noon, image.height - 1).max(1e-6);
-    report.measure(
+    report.at_least(
         SKY_DAY,
         "horizon / zenith",
         luminance(image, noon, 0) / zenith,
-        Bound::AtLeast(1.0),
+        1.0,
     );
     check_steps(report, image);
 }
@@ -78,7 +78,7 @@ fn check_night(report: &mut Report, image: View, noon_elevation_rad: Option<f32>
     for share in image.channel(3).map(f64::from) {
         worst = worst.max(-share).max(share - 1.0);
     }
-    report.measure(SKY_NIGHT, NAME, worst, Bound::AtMost(0.02));
+    report.at_most(SKY_NIGHT, NAME, worst, 0.02);
 }
 
 /// The least and the greatest share of the night sky that shows with the sun at an elevation.
@@ -103,11 +103,11 @@ fn check_hours(report: &mut Report, image: View, noon_elevation_rad: Option<f32>
         let pairs = image.texel(x, y).into_iter().zip(evening);
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
     });
-    report.measure(
+    report.at_most(
         SKY_HOURS,
         &format!("{NAME} evening"),
-        f64::from(uneven.fold(0.0, f32::max)),
-        Bound::AtMost(0.0),
+        uneven.fold(0.0, f32::max),
+        0.0,
     );
     let Some(noon) = noon_elevation_rad else {
         report.skip(SKY_HOURS, NAME, "no manifest tells how high the sun stands");
@@ -118,24 +118,14 @@ fn check_hours(report: &mut Report, image: View, noon_elevation_rad: Option<f32>
         (image.texel(x, y)[3] - night_share(sun_sin)).abs()
     });
     // Half floats below 1 have steps of 1/2048 and less.
-    report.measure(
-        SKY_HOURS,
-        NAME,
-        f64::from(off.fold(0.0, f32::max)),
-        Bound::AtMost(1.0 / 2048.0),
-    );
+    report.at_most(SKY_HOURS, NAME, off.fold(0.0, f32::max), 1.0 / 2048.0);
 }
 
 /// Air scatters blue more than green and green more than red, and least of all that comes from above is reddened.
 fn check_colour(report: &mut Report, image: View) {
     let zenith = image.texel(image.width / 2, image.height - 1);
     let steps = [zenith[1] - zenith[0], zenith[2] - zenith[1]];
-    report.measure(
-        SKY_COLOUR,
-        NAME,
-        f64::from(steps[0].min(steps[1])),
-        Bound::AtLeast(0.0),
-    );
+    report.at_least(SKY_COLOUR, NAME, steps[0].min(steps[1]), 0.0);
 }
 
 /// The largest change of luminance from one time to the next, against the brightest of the whole day.
@@ -152,12 +142,7 @@ fn check_steps(report: &mut Report, image: View) {
             worst = worst.max((next - luminance(image, x, y)).abs());
         }
     }
-    report.measure(
-        SKY_STEP,
-        NAME,
-        worst / brightest.max(1e-6),
-        Bound::AtMost(0.34),
-    );
+    report.at_most(SKY_STEP, NAME, worst / brightest.max(1e-6), 0.34);
 }
 
 /// Luminance of linear BT.709 colour (ITU-R BT.709-6, item 3.2).

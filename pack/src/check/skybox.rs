@@ -1,6 +1,6 @@
 //! The skybox.
 
-use super::report::{Bound, Report, subject};
+use super::report::{Report, subject};
 use super::rule::{SKYBOX_CLIP, SKYBOX_RANGE, SKYBOX_SEAM};
 use crate::mapping::cube_texel;
 use crate::role::Role;
@@ -12,9 +12,9 @@ const COVER: usize = 3;
 
 pub(super) fn check(report: &mut Report, texture: &Texture) {
     let wrong: usize = texture.views().map(out_of_range).sum();
-    report.measure(SKYBOX_RANGE, NAME, wrong as f64, Bound::AtMost(0.0));
+    report.at_most(SKYBOX_RANGE, NAME, wrong as f64, 0.0);
     let clipped = clipped(texture);
-    report.measure(SKYBOX_CLIP, NAME, clipped as f64, Bound::AtMost(0.0));
+    report.at_most(SKYBOX_CLIP, NAME, clipped as f64, 0.0);
     let faces: Vec<View> = (0..texture.layers).map(|f| texture.view(0, f)).collect();
     for channel in 0..=COVER {
         let name = subject(Role::Skybox, channel);
@@ -22,7 +22,7 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
             report.skip(SKYBOX_SEAM, &name, "the radiance is not sound");
         } else {
             let ratio = worst_seam(&faces, channel);
-            report.measure(SKYBOX_SEAM, &name, ratio, Bound::AtMost(2.0));
+            report.at_most(SKYBOX_SEAM, &name, ratio, 2.0);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The sheet of cloud sprites.
 
-use super::report::{Bound, Report, subject};
+use super::report::{Report, subject};
 use super::rule::{
     SPRITE_BORDER, SPRITE_CELLS, SPRITE_CORE, SPRITE_FLAT, SPRITE_FOG, SPRITE_GREY, SPRITE_LEVEL,
 };
@@ -26,18 +26,18 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
         .copied()
         .map(brightest_border)
         .fold(0.0, f64::max);
-    report.measure(SPRITE_BORDER, NAME, borders, Bound::AtMost(0.0));
+    report.at_most(SPRITE_BORDER, NAME, borders, 0.0);
     check_levels(report, &levels);
     let cells: Vec<Cell> = (0..SheetCell::COUNT)
         .map(|index| Cell::new(levels[0], SheetCell(index)))
         .collect();
     for (index, cell) in cells.iter().enumerate() {
         let [least, most] = SheetCell::OPACITY.map(f64::from);
-        report.measure(
+        report.within(
             SPRITE_CELLS,
             &format!("{NAME} {index}"),
             cell.opacity(),
-            Bound::Within(least, most),
+            [least, most],
         );
     }
     check_kinds(report, &cells);
@@ -46,25 +46,20 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
 /// What pictures of one's own may break on purpose.
 fn check_kinds(report: &mut Report, cells: &[Cell]) {
     let off = cells.iter().map(|cell| (cell.grey() - 0.5).abs());
-    report.measure(
-        SPRITE_GREY,
-        NAME,
-        off.fold(0.0, f64::max),
-        Bound::AtMost(0.05),
-    );
+    report.at_most(SPRITE_GREY, NAME, off.fold(0.0, f64::max), 0.05);
     let of = |kind: SheetKind| cells.iter().filter(move |cell| cell.kind == kind);
     let flat = || of(SheetKind::FlatBottomed);
     let cores = of(SheetKind::Puffy).chain(flat()).map(Cell::peak);
     let least = cores.fold(f64::INFINITY, f64::min);
-    report.measure(SPRITE_CORE, NAME, least, Bound::AtLeast(LEAST_CORE));
+    report.at_least(SPRITE_CORE, NAME, least, LEAST_CORE);
     let uneven = flat().map(Cell::unevenness).fold(0.0, f64::max);
-    report.measure(SPRITE_FLAT, NAME, uneven, Bound::AtMost(MOST_UNEVEN));
+    report.at_most(SPRITE_FLAT, NAME, uneven, MOST_UNEVEN);
     let fog = of(SheetKind::Foggy)
         .map(Cell::roughness)
         .fold(0.0, f64::max);
     let puffs = of(SheetKind::Puffy).map(Cell::roughness);
     let ratio = fog / puffs.fold(f64::INFINITY, f64::min);
-    report.measure(SPRITE_FOG, NAME, ratio, Bound::AtMost(1.0));
+    report.at_most(SPRITE_FOG, NAME, ratio, 1.0);
 }
 
 /// The largest opacity of the outermost texels of any cell.
@@ -88,7 +83,7 @@ fn check_levels(report: &mut Report, levels: &[View]) {
         (ALPHA, worst(off_the_mean), 1.0001),
     ] {
         let name = subject(Role::Sprites, channel);
-        report.measure(SPRITE_LEVEL, &name, figure, Bound::AtMost(most));
+        report.at_most(SPRITE_LEVEL, &name, figure, most);
     }
 }
 

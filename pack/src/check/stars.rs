@@ -21,18 +21,18 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
     let empty = all()
         .filter(|t| t[0] == 0 && (t[1] | t[2] | t[3]) != 0)
         .count();
-    report.measure(STAR_EMPTY, NAME, empty as f64, Bound::AtMost(0.0));
+    report.at_most(STAR_EMPTY, NAME, empty as f64, 0.0);
     // Where there is no star, the rule above speaks.
     let clipped = all()
         .filter(|t| t[0] > 0 && (t[2] > t[0] || u16::from(t[0]) + u16::from(t[2]) > 255))
         .count();
-    report.measure(STAR_CLIP, NAME, clipped as f64, Bound::AtMost(0.0));
+    report.at_most(STAR_CLIP, NAME, clipped as f64, 0.0);
 
     let stars = lit(texture).count();
     let share = stars as f64 / texels(0).len() as f64;
     // A lone star is a sky, as over a city; at one star in 16 texels stars touch.
     let one = 1.0 / texels(0).len() as f64;
-    report.measure(STAR_SHARE, NAME, share, Bound::Within(one, 1.0 / 16.0));
+    report.within(STAR_SHARE, NAME, share, [one, 1.0 / 16.0]);
     check_levels(report, texture);
     check_level_flicker(report, texture);
     if stars < 20 {
@@ -103,8 +103,8 @@ fn check_levels(report: &mut Report, texture: &Texture) {
             strangers += usize::from(!is_one && !is_empty);
         }
     }
-    report.measure(STAR_LIGHT, NAME, light, Bound::AtMost(1.0));
-    report.measure(STAR_RECORD, NAME, strangers as f64, Bound::AtMost(0.0));
+    report.at_most(STAR_LIGHT, NAME, light, 1.0);
+    report.at_most(STAR_RECORD, NAME, strangers as f64, 0.0);
 }
 
 /// The mean amplitude of a star as a share of its intensity: the records have 0.1 to 0.6, evenly.
@@ -144,11 +144,11 @@ fn check_level_flicker(report: &mut Report, texture: &Texture) {
         let rounding = 0.5 / level[0].max(1.0);
         ((relative(level) - base).abs() - rounding).max(0.0) / base.max(1e-6)
     });
-    report.measure(
+    report.at_most(
         STAR_FLICKER,
         &format!("{NAME} levels"),
         worst.fold(0.0, f64::max),
-        Bound::AtMost(FLICKER_ERROR),
+        FLICKER_ERROR,
     );
 }
 
@@ -159,7 +159,7 @@ fn check_brightest(report: &mut Report, texture: &Texture, stars: usize) {
     let brightest = lit(texture).map(|(_, texel)| texel[0]).max();
     let brightest = f64::from(brightest.unwrap_or(0)) / 255.0;
     let least = 0.8 * libm::pow(1.0 + libm::pow(10.0, 2.5) / stars as f64, -0.8) - 0.5 / 255.0;
-    report.measure(STAR_BRIGHTEST, NAME, brightest, Bound::AtLeast(least));
+    report.at_least(STAR_BRIGHTEST, NAME, brightest, least);
 }
 
 /// Rates that stars have, in 64ths of a hertz: 0.2 to 3.95 Hz, even between them, and cut to whole ones.
@@ -175,12 +175,7 @@ fn check_rates(report: &mut Report, texture: &Texture, stars: usize) {
         outside += u32::from(!(first..=last).contains(&texel[1]));
         bins[usize::from(texel[1].saturating_sub(first) / 16).min(BINS - 1)] += 1.0;
     }
-    report.measure(
-        STAR_RATE,
-        &format!("{NAME} outside"),
-        outside.into(),
-        Bound::AtMost(0.0),
-    );
+    report.at_most(STAR_RATE, &format!("{NAME} outside"), outside, 0.0);
     let edge = |bin: usize| (f64::from(first) + 16.0 * bin as f64).max(RATES[0]);
     let chi_squared = bins.iter().enumerate().map(|(bin, &found)| {
         let end = if bin + 1 == BINS {
@@ -191,11 +186,11 @@ fn check_rates(report: &mut Report, texture: &Texture, stars: usize) {
         let expected = stars as f64 * (end - edge(bin)) / (RATES[1] - RATES[0]);
         (found - expected) * (found - expected) / expected
     });
-    report.measure(
+    report.at_most(
         STAR_RATE,
         NAME,
-        chi_squared.sum(),
-        Bound::AtMost(counts_quantile(BINS, stars as f64 / BINS as f64)),
+        chi_squared.sum::<f64>(),
+        counts_quantile(BINS, stars as f64 / BINS as f64),
     );
 }
 
@@ -205,7 +200,7 @@ fn check_phases(report: &mut Report, texture: &Texture, stars: usize) {
     lit(texture).for_each(|(_, texel)| bins[usize::from(texel[3] >> 4)] += 1.0);
     // Bytes round to nearest, so byte 0 also stands for what would be 256: half a step, far below the noise.
     let most = counts_quantile(bins.len(), stars as f64 / bins.len() as f64);
-    report.measure(STAR_PHASE, NAME, chi_squared(&bins), Bound::AtMost(most));
+    report.at_most(STAR_PHASE, NAME, chi_squared(&bins), most);
 }
 
 /// The largest peak of the structure factor `S(k) = |sum exp(-2 pi i k.x / size)|^2 / N`.
@@ -229,7 +224,7 @@ fn check_lattice(report: &mut Report, texture: &Texture, stars: usize) {
     let waves = (half * side as usize) as f64;
     let share = stars as f64 / (f64::from(side) * f64::from(side));
     let most = libm::log(waves / FALSE_ALARMS) * (1.0 + 4.0 * share);
-    report.measure(STAR_LATTICE, NAME, peak, Bound::AtMost(most));
+    report.at_most(STAR_LATTICE, NAME, peak, most);
 }
 
 /// The index of dispersion of counts in cells of about four stars (variance over mean, 1 if independent).
@@ -246,10 +241,10 @@ fn check_clusters(report: &mut Report, texture: &Texture, stars: usize) {
     }
     let freedom = (counts.len() - 1) as f64;
     let most = counts_quantile(counts.len(), stars as f64 / counts.len() as f64);
-    report.measure(
+    report.at_most(
         STAR_CLUSTER,
         NAME,
         chi_squared(&counts) / freedom,
-        Bound::AtMost(most / freedom),
+        most / freedom,
     );
 }

@@ -1,6 +1,6 @@
 //! The sun's disc and glow.
 
-use super::report::{Bound, Report, subject};
+use super::report::{Report, subject};
 use super::rule::{SUN_BORDER, SUN_DISC, SUN_ROUND};
 use crate::role::Role;
 use crate::texture::Texture;
@@ -26,18 +26,8 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
             }
         }
     }
-    report.measure(
-        SUN_DISC,
-        &format!("{name} centre"),
-        f64::from(centre),
-        Bound::AtLeast(0.9),
-    );
-    report.measure(
-        SUN_DISC,
-        &format!("{name} outside"),
-        f64::from(outside),
-        Bound::AtMost(0.01),
-    );
+    report.at_least(SUN_DISC, &format!("{name} centre"), centre, 0.9);
+    report.at_most(SUN_DISC, &format!("{name} outside"), outside, 0.01);
     check_round(report, image);
     check_border(report, texture);
 }
@@ -61,12 +51,7 @@ fn check_round(report: &mut Report, image: View) {
             let inwards = if x + 1 < half { at(x + 1, y) } else { here };
             worst = worst.max(here - inwards);
         }
-        report.measure(
-            SUN_ROUND,
-            &subject(Role::Sun, channel),
-            f64::from(worst),
-            Bound::AtMost(1.01 / 255.0),
-        );
+        report.at_most(SUN_ROUND, &subject(Role::Sun, channel), worst, 1.01 / 255.0);
     }
 }
 
@@ -89,11 +74,11 @@ fn check_border(report: &mut Report, texture: &Texture) {
                 brightest = brightest.max(image.texel(x, y)[channel]);
             }
         }
-        report.measure(
+        report.at_most(
             SUN_BORDER,
             &subject(Role::Sun, channel),
-            f64::from(brightest),
-            Bound::AtMost(2.01 / 255.0),
+            brightest,
+            2.01 / 255.0,
         );
     }
 }

@@ -1,6 +1,6 @@
 //! Seams and smoothness of channels that tile.
 
-use super::report::{Bound, Report, subject};
+use super::report::{Report, subject};
 use super::rule::{SEAM, SMOOTH};
 use crate::format::Format;
 use crate::role::Role;
@@ -11,7 +11,7 @@ use crate::view::View;
 /// be means of it.
 pub(super) fn check_seam(report: &mut Report, role: Role, texture: &Texture, channel: usize) {
     let worst = seam(texture, channel);
-    report.measure(SEAM, &subject(role, channel), worst, Bound::AtMost(1.0));
+    report.at_most(SEAM, &subject(role, channel), worst, 1.0);
 }
 
 /// The worst ratio, on level 0, of the root mean square step across the edge to the largest one between two neighbouring
@@ -53,11 +53,11 @@ pub(super) fn check_smooth(
     let ratios =
         (0..texture.layers).map(|i| roughness(texture.view(0, i), texture.format, channel));
     let most = 2.0 * libm::sin(std::f64::consts::PI / texels_a_wave);
-    report.measure(
+    report.at_most(
         SMOOTH,
         &subject(role, channel),
         ratios.fold(0.0, f64::max),
-        Bound::AtMost(most),
+        most,
     );
 }
 
@@ -133,7 +133,7 @@ fn steps(image: View, channel: usize, axis: Axis) -> (Vec<f64>, f64) {
     (inside, step(length.max(2) - 2))
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "write"))]
 mod tests {
     use super::*;
     use crate::format::Shape;

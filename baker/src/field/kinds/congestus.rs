@@ -1,8 +1,6 @@
 //! Cumulus congestus: heaps that have grown into towers, higher than wide.
 
-use std::f32::consts::TAU;
-
-use super::heap::{Heap, foot};
+use super::heap::{Heaps, foot};
 use super::look::{Look, whole};
 use crate::settings::BoxSettings;
 use crate::stream::Stream;
@@ -14,35 +12,18 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
     let look = Look::puffs((0.28 * width).clamp(400.0, 620.0));
     let mut boxes = Vec::new();
     foot(base_m, [width, 0.16 * height, depth], look, 1.2, &mut boxes);
-    let towers = whole(stream, 3, 4);
-    let first = stream.between([0.0, 1.0]);
-    let mut group = 1;
-    for i in 0..towers {
-        let out = if i == 0 {
-            0.05
-        } else {
-            stream.between([0.2, 0.3])
-        };
-        let angle = TAU * (first + i as f32 / (towers - 1) as f32 + stream.between([-0.08, 0.08]));
-        let share = if i == 0 {
-            1.0
-        } else {
-            stream.between([0.4, 0.75])
-        };
-        let tower = Heap {
-            at_m: [
-                out * width * libm::cosf(angle),
-                out * depth * libm::sinf(angle),
-            ],
-            foot_m: base_m + 0.1 * height,
-            top_m: base_m + share * height,
-            width_m: width * stream.between([0.52, 0.62]),
-            // A storey is about as high as a sprite and a half.
-            storeys: (libm::roundf(share * height / 650.0) as u32).clamp(1, 8),
-            group,
-        };
-        tower.add(look, 1.5, stream, &mut boxes);
-        group += tower.groups();
-    }
+    let towers = Heaps {
+        base_m,
+        size_m: [width, height, depth],
+        count: whole(stream, 3, 4),
+        middle: [0.05, 1.0],
+        out: [0.2, 0.3],
+        share: [0.4, 0.75],
+        foot: 0.1,
+        width: |_, stream| stream.between([0.52, 0.62]),
+        // A storey is about as high as a sprite and a half.
+        storeys: |_, height| (libm::roundf(height / 650.0) as u32).clamp(1, 8),
+    };
+    towers.add(look, 1.5, stream, &mut boxes);
     boxes
 }

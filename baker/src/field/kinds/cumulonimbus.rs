@@ -2,7 +2,7 @@
 
 use std::f32::consts::TAU;
 
-use super::heap::{Heap, foot};
+use super::heap::{Heaps, foot};
 use super::look::{Look, whole};
 use crate::settings::BoxSettings;
 use crate::stream::Stream;
@@ -14,41 +14,22 @@ pub(super) fn boxes([base_m, top_m]: [f32; 2], stream: &mut Stream) -> Vec<BoxSe
     let look = Look::puffs(1250.0);
     let mut boxes = Vec::new();
     foot(base_m, [width, 0.12 * height, depth], look, 1.5, &mut boxes);
-    let towers = whole(stream, 3, 4);
-    let first = stream.between([0.0, 1.0]);
-    let mut group = 1;
-    for i in 0..towers {
-        let out = if i == 0 {
-            0.04
-        } else {
-            stream.between([0.2, 0.28])
-        };
-        let angle = TAU * (first + i as f32 / (towers - 1) as f32 + stream.between([-0.08, 0.08]));
-        // The middle one reaches into the anvil.
-        let share = if i == 0 {
-            0.97
-        } else {
-            stream.between([0.3, 0.6])
-        };
-        let tower = Heap {
-            at_m: [
-                out * width * libm::cosf(angle),
-                out * depth * libm::sinf(angle),
-            ],
-            foot_m: base_m + 0.08 * height,
-            top_m: base_m + share * height,
-            width_m: width
-                * if i == 0 {
-                    0.68
-                } else {
-                    stream.between([0.46, 0.56])
-                },
-            storeys: (libm::roundf(share * height / 1100.0) as u32).clamp(1, 9),
-            group,
-        };
-        tower.add(look, 1.8, stream, &mut boxes);
-        group += tower.groups();
-    }
+    let towers = Heaps {
+        base_m,
+        size_m: [width, height, depth],
+        count: whole(stream, 3, 4),
+        // It reaches into the anvil.
+        middle: [0.04, 0.97],
+        out: [0.2, 0.28],
+        share: [0.3, 0.6],
+        foot: 0.08,
+        width: |i, stream| match i {
+            0 => 0.68,
+            _ => stream.between([0.46, 0.56]),
+        },
+        storeys: |_, height| (libm::roundf(height / 1100.0) as u32).clamp(1, 9),
+    };
+    let group = towers.add(look, 1.8, stream, &mut boxes);
     anvil([base_m, base_m + height], width, group, stream, &mut boxes);
     boxes
 }

@@ -1,31 +1,28 @@
 //! A heap: storeys of boxes on each other, narrower towards a rounded top.
 
+use std::f32::consts::TAU;
+
 use super::look::Look;
 use crate::settings::BoxSettings;
 use crate::stream::Stream;
 
 /// A heap that bulges from a cloud.
-pub(super) struct Heap {
+struct Heap {
     /// Middle of its foot.
-    pub at_m: [f32; 2],
+    at_m: [f32; 2],
     /// Height of its foot and of its top above the sea, as they are to be seen.
-    pub foot_m: f32,
-    pub top_m: f32,
+    foot_m: f32,
+    top_m: f32,
     /// Its width below.
-    pub width_m: f32,
-    pub storeys: u32,
+    width_m: f32,
+    storeys: u32,
     /// The clump of its lowest storey; each has one.
-    pub group: u32,
+    group: u32,
 }
 
 impl Heap {
-    /// Clumps that it has.
-    pub fn groups(&self) -> u32 {
-        self.storeys
-    }
-
     /// Adds its boxes. Sprites reach beyond a box, so it is that much smaller than what is to be seen.
-    pub fn add(&self, look: Look, fill: f32, stream: &mut Stream, boxes: &mut Vec<BoxSettings>) {
+    fn add(&self, look: Look, fill: f32, stream: &mut Stream, boxes: &mut Vec<BoxSettings>) {
         let inset = 0.3 * look.height_m[1];
         let height = (self.top_m - inset - self.foot_m).max(20.0);
         let storey = height / self.storeys as f32;
@@ -51,6 +48,64 @@ impl Heap {
             x += stream.between([-0.06, 0.06]) * width;
             z += stream.between([-0.06, 0.06]) * width;
         }
+    }
+}
+
+/// Heaps on a cloud's foot: one in the middle, the others around it. Shares are of the cloud's size.
+pub(super) struct Heaps {
+    pub base_m: f32,
+    /// Width, height and depth of the cloud.
+    pub size_m: [f32; 3],
+    pub count: u32,
+    /// How far out the one in the middle is, and its height.
+    pub middle: [f32; 2],
+    /// How far out the others are, and their heights.
+    pub out: [f32; 2],
+    pub share: [f32; 2],
+    /// How high they begin.
+    pub foot: f32,
+    /// Width of a heap by its number.
+    pub width: fn(u32, &mut Stream) -> f32,
+    /// Storeys of a heap by its number and its height in metres.
+    pub storeys: fn(u32, f32) -> u32,
+}
+
+impl Heaps {
+    /// Adds their boxes and gives the next free clump.
+    pub fn add(
+        &self,
+        look: Look,
+        fill: f32,
+        stream: &mut Stream,
+        boxes: &mut Vec<BoxSettings>,
+    ) -> u32 {
+        let [width, height, depth] = self.size_m;
+        let first = stream.between([0.0, 1.0]);
+        let mut group = 1;
+        for i in 0..self.count {
+            let pick = |middle: f32, others, stream: &mut Stream| match i {
+                0 => middle,
+                _ => stream.between(others),
+            };
+            let out = pick(self.middle[0], self.out, stream);
+            let turn = i as f32 / (self.count - 1) as f32 + stream.between([-0.08, 0.08]);
+            let angle = TAU * (first + turn);
+            let share = pick(self.middle[1], self.share, stream);
+            let heap = Heap {
+                at_m: [
+                    out * width * libm::cosf(angle),
+                    out * depth * libm::sinf(angle),
+                ],
+                foot_m: self.base_m + self.foot * height,
+                top_m: self.base_m + share * height,
+                width_m: width * (self.width)(i, stream),
+                storeys: (self.storeys)(i, share * height),
+                group,
+            };
+            heap.add(look, fill, stream, boxes);
+            group += heap.storeys;
+        }
+        group
     }
 }
 

@@ -157,7 +157,7 @@ pub(super) fn likeness(a: &Image, b: &Image) -> f64 {
     if weights > 0.0 { sum / weights } else { 0.0 }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "write"))]
 mod tests {
     use super::*;
     use crate::format::{Format, Shape};
