@@ -1,4 +1,5 @@
 // The clear sky of Perez and others: luminance and both chromaticities. Theory and CPU part: perez.rs.
+// Each of a to e, base and zenith holds, in x, y, z: luminance, chromaticity x, chromaticity y.
 
 // M. Abramowitz, I. A. Stegun, "Handbook of Mathematical Functions", 1964, eq. 4.4.45: off by 7e-5 at most.
 fn perez_acos(cosine: f32) -> f32 {

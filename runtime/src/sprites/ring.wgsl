@@ -35,24 +35,35 @@ fn ring_side(direction: vec2f) -> u32 {
     return select(select(0u, 4u, south), select(6u, 2u, east), size.x > size.y);
 }
 
-// Where a ray meets a side: its place from the octagon's middle over the radius, and how far along the side.
-fn ring_reach(octagon: RingSet, direction: vec3f, side: u32) -> vec4f {
+// How high a ray meets a side, and how far along it, from its middle over the radius.
+struct RingReach {
+    up: f32,
+    along: f32,
+}
+
+fn ring_reach(octagon: RingSet, direction: vec3f, side: u32) -> RingReach {
     let normal = ring.sides[side].normal;
     let reach = (ring.radius_m + dot(normal, octagon.centre.xz)) / dot(normal, direction.xz);
     let hit = (direction * reach - octagon.centre) / ring.radius_m;
-    return vec4f(hit, dot(ring.sides[side].along, hit.xz));
+    return RingReach(hit.y, dot(ring.sides[side].along, hit.xz));
 }
 
-// Where a ray leaves the octagon: its side, and u and v on that side's picture.
-fn ring_hit(octagon: RingSet, direction: vec3f) -> vec3f {
+// Where a ray leaves the octagon: its side, and where on that side's picture.
+struct RingHit {
+    side: u32,
+    uv: vec2f,
+}
+
+fn ring_hit(octagon: RingSet, direction: vec3f) -> RingHit {
     var side = ring_side(direction.xz);
     var hit = ring_reach(octagon, direction, side);
     // As the viewer is not in the middle, it may be the next one.
-    if abs(hit.w) > RING_HALF_SIDE {
-        side = (side + select(7u, 1u, hit.w > 0.0)) & 7u;
+    if abs(hit.along) > RING_HALF_SIDE {
+        side = (side + select(7u, 1u, hit.along > 0.0)) & 7u;
         hit = ring_reach(octagon, direction, side);
     }
-    return vec3f(f32(side), 0.5 + hit.w * octagon.per_width, (octagon.top - hit.y) * octagon.per_height);
+    let uv = vec2f(0.5 + hit.along * octagon.per_width, (octagon.top - hit.up) * octagon.per_height);
+    return RingHit(side, uv);
 }
 
 // Radiance as the pictures hold it: bytes, which blend as the target does.
@@ -69,14 +80,14 @@ fn fs_ring(in: RingVaryings) -> @location(0) vec4f {
     var texel = vec4f(0.0);
     if ring.used.weight > 0.0 {
         let hit = ring_hit(ring.used, direction);
-        if hit.z >= 0.0 && hit.z <= 1.0 {
-            texel += ring.used.weight * textureSampleLevel(used_ring_texture, clamp_sampler, hit.yz, i32(hit.x), 0.0);
+        if hit.uv.y >= 0.0 && hit.uv.y <= 1.0 {
+            texel += ring.used.weight * textureSampleLevel(used_ring_texture, clamp_sampler, hit.uv, i32(hit.side), 0.0);
         }
     }
     if ring.next.weight > 0.0 {
         let hit = ring_hit(ring.next, direction);
-        if hit.z >= 0.0 && hit.z <= 1.0 {
-            texel += ring.next.weight * textureSampleLevel(next_ring_texture, clamp_sampler, hit.yz, i32(hit.x), 0.0);
+        if hit.uv.y >= 0.0 && hit.uv.y <= 1.0 {
+            texel += ring.next.weight * textureSampleLevel(next_ring_texture, clamp_sampler, hit.uv, i32(hit.side), 0.0);
         }
     }
     if OUTPUT == OUTPUT_RADIANCE {

@@ -1,7 +1,5 @@
 // Clouds of sprites in space. Theory and CPU part: mod.rs and the files beside it.
 
-// A viewpoint: the camera, or the middle of the ring towards one of its sides.
-// A block of 16 square kilometres.
 // Outlines of the sheet's cells: eight vertices each, two a vector.
 struct SpriteOutlines {
     vertices: array<vec4f, 64>,
@@ -15,14 +13,21 @@ struct SpriteOutlines {
 @group(1) @binding(11) var instances_texture: texture_2d<u32>;
 
 struct SpriteInstance {
-    centre: vec4f,      // xyz: place in its block, m; w: turn, radians
-    size: vec4f,        // xy: half width and half height, m; zw: shares of the cloud's height at its lower and upper edge
-    from_group: vec4f,  // xyz: from the middle of its shading group, m; w: 1 if it lies flat
-    from_cloud: vec4f,  // xyz: from the middle of its cloud, m; w: the cloud's radius, m
+    centre: vec3f,      // in its block, m
+    turn: f32,          // radians
+    half_size: vec2f,   // half width and half height, m
+    heights: vec2f,     // fractions of the cloud's height at its lower and upper edge
+    from_group: vec3f,  // from the middle of its shading group, m
+    lies_flat: bool,
+    from_cloud: vec3f,  // from the middle of its cloud, m
+    cloud_radius: f32,  // m
     low: vec4f,         // colour level at its lower edge, and opacity
     high: vec4f,        // the same at its upper edge
-    names: vec4u,       // x: cell of the sheet; y, z: low and high byte of its cloud's number; w: 1 for a whole cloud's billboard
-    lock: vec4f,        // xyz: the way it faces for ever; w: 1 if it does
+    cell: u32,          // of the sheet
+    cloud: vec2u,       // low and high byte of its cloud's number
+    is_billboard: bool, // of a whole cloud
+    lock: vec3f,        // the way it faces for ever
+    is_locked: f32,     // 1 if it does
 }
 
 // A sprite of the block. Read from a texture, since instances of a few vertices each leave most of a GPU's lanes idle.
@@ -33,15 +38,26 @@ fn sprite_instance(number: u32) -> SpriteInstance {
     let b = textureLoad(instances_texture, texel + vec2u(1u, 0u), 0);
     let c = textureLoad(instances_texture, texel + vec2u(2u, 0u), 0);
     let d = textureLoad(instances_texture, texel + vec2u(3u, 0u), 0);
+    let position = bitcast<vec4f>(a);
+    let from_group = vec4f(unpack2x16snorm(b.z), unpack2x16snorm(b.w));
+    let from_cloud = SPRITE_MOST_AWAY * vec4f(unpack2x16snorm(c.x), unpack2x16snorm(c.y));
+    let lock = unpack4x8snorm(d.y);
     return SpriteInstance(
-        bitcast<vec4f>(a),
-        vec4f(SPRITE_MOST_HALF_SIZE * unpack2x16unorm(b.x), unpack2x16unorm(b.y)),
-        vec4f(unpack2x16snorm(b.z), unpack2x16snorm(b.w)) * vec4f(vec3f(SPRITE_MOST_AWAY), 1.0),
-        SPRITE_MOST_AWAY * vec4f(unpack2x16snorm(c.x), unpack2x16snorm(c.y)),
+        position.xyz,
+        position.w,
+        SPRITE_MOST_HALF_SIZE * unpack2x16unorm(b.x),
+        unpack2x16unorm(b.y),
+        SPRITE_MOST_AWAY * from_group.xyz,
+        from_group.w > 0.5,
+        from_cloud.xyz,
+        from_cloud.w,
         unpack4x8unorm(c.z),
         unpack4x8unorm(c.w),
-        vec4u(d.x & 255u, (d.x >> 8u) & 255u, (d.x >> 16u) & 255u, d.x >> 24u),
-        unpack4x8snorm(d.y),
+        d.x & 255u,
+        vec2u((d.x >> 8u) & 255u, (d.x >> 16u) & 255u),
+        (d.x >> 24u) == 1u,
+        lock.xyz,
+        lock.w,
     );
 }
 
@@ -62,8 +78,8 @@ fn sprite_formed(amount: f32, place: f32, centre: f32) -> f32 {
     return clamp(core - edges * place, 0.0, 1.0) * stage;
 }
 
-fn sprite_amount(low: u32, high: u32) -> f32 {
-    return textureLoad(amounts_texture, vec2u(low, high), 0).r;
+fn sprite_amount(cloud: vec2u) -> f32 {
+    return textureLoad(amounts_texture, cloud, 0).r;
 }
 
 // What the air between viewer and place leaves of light: its density falls exponentially with height.
@@ -77,8 +93,8 @@ fn sprite_clearness(place: vec3f, distance: f32) -> f32 {
 
 // The sprite's right and up, in the order of its own turn; it faces the viewer, or as it is locked, or up.
 fn sprite_axes(instance: SpriteInstance, facing: vec3f) -> mat2x3f {
-    let turn = vec2f(cos(instance.centre.w), sin(instance.centre.w));
-    if instance.from_group.w > 0.5 {
+    let turn = vec2f(cos(instance.turn), sin(instance.turn));
+    if instance.lies_flat {
         return mat2x3f(vec3f(turn.x, 0.0, -turn.y), vec3f(-turn.y, 0.0, -turn.x));
     }
     let across = vec3f(facing.z, 0.0, -facing.x);
@@ -90,9 +106,9 @@ fn sprite_axes(instance: SpriteInstance, facing: vec3f) -> mat2x3f {
 
 fn sprite_light(instance: SpriteInstance, offset: vec3f, direction: vec3f, up: f32) -> vec3f {
     let own = uniforms.sprites;
-    let share = mix(instance.size.z, instance.size.w, up);
+    let share = mix(instance.heights.x, instance.heights.y, up);
     let ambient = mix(instance.low.rgb, instance.high.rgb, up) * own.ambient * (1.0 - own.dark_base * (1.0 - share));
-    let from_group = instance.from_group.xyz + offset;
+    let from_group = instance.from_group + offset;
     let towards = dot(from_group, own.light_direction) / max(length(from_group), 1.0);
     let sun = own.light * mix(own.least, own.most, 0.5 + 0.5 * towards);
     return ambient + sun * mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
@@ -123,40 +139,39 @@ fn sprite_corner(cell: u32, corner: u32) -> vec2f {
 fn sprite_vertex(index: u32) -> SpriteVaryings {
     let instance = sprite_instance(index >> sprite_block.vertices_log2);
     let own = uniforms.sprites;
-    let middle = sprite_block.origin + instance.centre.xyz;
+    let middle = sprite_block.origin + instance.centre;
     let distance = max(length(middle), 1e-3);
-    let radius = max(instance.size.x, instance.size.y);
+    let radius = max(instance.half_size.x, instance.half_size.y);
     let to_viewer = -middle / distance;
 
     // In the cloud: facing and opacity of a sprite that is near or was passed.
-    let locked = instance.lock.w * (1.0 - smoothstep(SPRITE_LOCK, 1.0, distance / radius));
-    let meets = dot(instance.lock.xyz, to_viewer);
-    let facing = normalize(mix(to_viewer, select(-instance.lock.xyz, instance.lock.xyz, meets >= 0.0), locked));
-    let lies = instance.from_group.w > 0.5;
-    let before = select(dot(facing, -middle), distance, lies) / radius;
+    let locked = instance.is_locked * (1.0 - smoothstep(SPRITE_LOCK, 1.0, distance / radius));
+    let meets = dot(instance.lock, to_viewer);
+    let facing = normalize(mix(to_viewer, select(-instance.lock, instance.lock, meets >= 0.0), locked));
+    let before = select(dot(facing, -middle), distance, instance.lies_flat) / radius;
     var opacity = mix(1.0, max(meets, 0.0), locked) * smoothstep(0.0, SPRITE_NEAR, before);
 
     // Far away: the rim of sight, where clouds take the colour of what is behind them before they go, and the change from sprites to one billboard a cloud.
     let rim = clamp((own.distance_m - distance) * own.rim_per_m, 0.0, 1.0);
     opacity *= min(SPRITE_RIM_OPAQUE * rim, 1.0);
     let near = clamp((own.billboards_m - distance) * own.change_per_m, 0.0, 1.0);
-    opacity *= select(near, 1.0 - near, instance.names.w == 1u);
+    opacity *= select(near, 1.0 - near, instance.is_billboard);
 
-    let amount = sprite_amount(instance.names.y, instance.names.z);
+    let amount = sprite_amount(instance.cloud);
     opacity *= sprite_block.opacity * own.opacity;
     if opacity * amount <= 0.0 {
         return SpriteVaryings(vec4f(0.0, 0.0, 0.0, -1.0), vec2f(0.0), 0.0, vec4f(0.0), vec3f(0.0));
     }
 
-    let corner = sprite_corner(instance.names.x, index & ((1u << sprite_block.vertices_log2) - 1u));
+    let corner = sprite_corner(instance.cell, index & ((1u << sprite_block.vertices_log2) - 1u));
     let axes = sprite_axes(instance, facing);
-    let offset = axes * (corner * instance.size.xy);
+    let offset = axes * (corner * instance.half_size);
     let place = middle + offset;
     let away = length(place);
     let direction = place / max(away, 1e-3);
-    let up = clamp(0.5 + 0.5 * offset.y / instance.size.y, 0.0, 1.0);
+    let up = clamp(0.5 + 0.5 * offset.y / instance.half_size.y, 0.0, 1.0);
 
-    let places = vec2f(length(instance.from_cloud.xyz + offset), length(instance.from_cloud.xyz)) / instance.from_cloud.w;
+    let places = vec2f(length(instance.from_cloud + offset), length(instance.from_cloud)) / instance.cloud_radius;
     let formed = sprite_formed(amount, places.x, places.y);
     opacity *= formed * mix(instance.low.a, instance.high.a, up);
     let light = sprite_light(instance, offset, direction, up);
@@ -169,9 +184,9 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
         dot(place, sprite_view.clip_z.xyz) + sprite_view.clip_z.w,
         dot(place, sprite_view.clip_w.xyz),
     );
-    let cell = vec2f(f32(instance.names.x & 3u), f32(instance.names.x >> 2u));
+    let cell = vec2f(f32(instance.cell & 3u), f32(instance.cell >> 2u));
     let uv = (cell + vec2f(0.5, -0.5) * corner + 0.5) * 0.25;
-    let texels_a_pixel = sprite_view.cell_texels * sprite_view.pixel_rad * distance / (2.0 * sqrt(instance.size.x * instance.size.y));
+    let texels_a_pixel = sprite_view.cell_texels * sprite_view.pixel_rad * distance / (2.0 * sqrt(instance.half_size.x * instance.half_size.y));
     // Far away a whole level: between two, every texel of every sprite would cost two reads.
     let fine = max(log2(max(texels_a_pixel, 1e-6)), 0.0);
     let level = select(fine, round(fine), sprite_block.vertices_log2 == 2u);

@@ -31,7 +31,8 @@ pub const PART: Part = Part {
     constants: &[
         ("LIGHTNING_CORE", Value::F32(CORE)),
         ("LIGHTNING_THIN", Value::F32(THIN)),
-        ("LIGHTNING_SPREAD", Value::Vec2(SPREAD)),
+        ("LIGHTNING_CORE_FALL", Value::F32(SPREAD[0])),
+        ("LIGHTNING_GLOW_FALL", Value::F32(SPREAD[1])),
     ],
     structs: &[LightningUniforms::WGSL],
     wgsl: include_str!("lightning.wgsl"),

@@ -145,8 +145,7 @@ pub fn scenes_of_sprites(of: SpriteScene, ring: f32) -> [Scene; 4] {
             SOUTH_DEG,
         )
     };
-    // Just beyond what a ring is good for.
-    let jump = 0.151 * ring;
+    let jump = JUMP * ring;
     let clear = SkyParams {
         cover: 0.0,
         ..sprites(0.0)
@@ -166,6 +165,8 @@ pub fn scenes_of_sprites(of: SpriteScene, ring: f32) -> [Scene; 4] {
 const SPRITE_SIGHT_M: f32 = 55_000.0;
 /// Frames that a ring takes at that sight: two for each picture, the fade, and one each to begin and to end.
 const RING_FRAMES: u32 = 2 * ring::PICTURES as u32 + ring::FADE_FRAMES + 2;
+/// How far a jump goes, over the radius of the ring: just beyond the 0.15 that a ring is good for.
+const JUMP: f32 = 0.151;
 /// Level flight below the clouds: the horizon, where most of them are, is in the middle.
 const SPRITE_ELEVATION_DEG: f32 = 0.0;
 const SPRITE_HEIGHT_M: f32 = 300.0;

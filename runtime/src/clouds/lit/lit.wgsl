@@ -16,16 +16,21 @@ fn lit_uv(index: i32, plane: vec2f) -> vec2f {
     return east + uniforms.lit.layers[index].south_axis * plane.y + uniforms.lit.layers[index].offset;
 }
 
-// The finer read of an iteration, by its lowest layer: how much denser it is than most, and how its normal meets the sun.
-fn lit_grain(index: i32, plane: vec2f, level: f32) -> vec2f {
+// The finer read of an iteration, by its lowest layer.
+struct LitGrain {
+    denser: f32, // than most
+    across: f32, // how its normal meets the sun
+}
+
+fn lit_grain(index: i32, plane: vec2f, level: f32) -> LitGrain {
     if uniforms.lit.layers[index].grain == 0.0 {
-        return vec2f(0.0);
+        return LitGrain(0.0, 0.0);
     }
     let uv = lit_uv(index, plane) * LIT_FINER + LIT_FINER_START;
     let kind = i32(uniforms.lit.layers[index].kind);
     let at_level = level + uniforms.lit.layers[index].lod_bias + LIT_FINER_LEVEL;
     let finer = textureSampleLevel(layers_texture, repeat_sampler, uv, kind, at_level);
-    return vec2f(finer.w - 0.5, LIT_FINER_RELIEF * dot(finer.xy * 2.0 - 1.0, uniforms.lit.layers[index].sun_uv));
+    return LitGrain(finer.a - 0.5, LIT_FINER_RELIEF * dot(finer.xy * 2.0 - 1.0, uniforms.lit.layers[index].sun_uv));
 }
 
 // The way from a place of the plane to where sun or moon is seen, no longer than shade reaches.
@@ -40,16 +45,23 @@ fn lit_blurred(index: i32, plane: vec2f, way: vec2f, level: f32, own: f32) -> f3
     let step = uniforms.lit.layers[index].blur_step;
     let near = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane + step * way), index, coarse);
     let far = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane + 2.0 * step * way), index, coarse);
-    return dot(LIT_BLUR, vec3f(own, near.w, far.w));
+    return dot(LIT_BLUR, vec3f(own, near.a, far.a));
 }
 
-// A layer along a ray, roughened by the grain: light that falls on it, nothing, opacity, shade of the place alone.
-fn lit_cloud(index: i32, plane: vec2f, level: f32, grain: vec2f) -> vec4f {
+// A layer along a ray, roughened by the grain.
+struct LitCloud {
+    falls: f32, // light that falls on it: eq. 3
+    opacity: f32,
+    shade: f32, // what it leaves of the light
+}
+
+// With the shade of the place alone.
+fn lit_cloud(index: i32, plane: vec2f, level: f32, grain: LitGrain) -> LitCloud {
     let at_level = level + uniforms.lit.layers[index].lod_bias;
     let cloud = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane), index, at_level);
-    let rough = uniforms.lit.layers[index].grain * grain;
-    let alpha = clamp(cloud.z + rough.x * cloud.z * (1.0 - cloud.z), 0.0, 1.0);
-    return vec4f(max(cloud.x + rough.y, 0.0), 0.0, alpha * uniforms.lit.layers[index].opacity, cloud.w);
+    let rough = uniforms.lit.layers[index].grain * vec2f(grain.denser, grain.across);
+    let alpha = clamp(cloud.b + rough.x * cloud.b * (1.0 - cloud.b), 0.0, 1.0);
+    return LitCloud(max(cloud.r + rough.y, 0.0), alpha * uniforms.lit.layers[index].opacity, cloud.a);
 }
 
 // What has been drawn of a sky, from the highest layer down.
@@ -61,13 +73,13 @@ struct LitSum {
 }
 
 // Draws a layer before those behind it. `through` is eq. 4.
-fn lit_over(behind: LitSum, cloud: vec4f, through: f32) -> LitSum {
-    let shade = cloud.w * behind.shade; // eq. 5
+fn lit_over(behind: LitSum, cloud: LitCloud, through: f32) -> LitSum {
+    let shade = cloud.shade * behind.shade; // eq. 5
     return LitSum(
-        mix(behind.sunlight, (through + cloud.x) * shade, cloud.z), // eq. 6
-        mix(behind.skylight, LIT_AMBIENT.x + LIT_AMBIENT.y * shade, cloud.z),
-        behind.clear * (1.0 - cloud.z),
-        behind.shade * (1.0 - LIT_SHADED_BY_LAYER * cloud.z),
+        mix(behind.sunlight, (through + cloud.falls) * shade, cloud.opacity), // eq. 6
+        mix(behind.skylight, LIT_AMBIENT_SHADED + LIT_AMBIENT_BRIGHTER * shade, cloud.opacity),
+        behind.clear * (1.0 - cloud.opacity),
+        behind.shade * (1.0 - LIT_SHADED_BY_LAYER * cloud.opacity),
     );
 }
 
@@ -78,9 +90,9 @@ fn lit_iteration(behind: LitSum, first: i32, plane: vec2f, level: f32, through: 
     var low = lit_cloud(first, plane, level, grain);
     var middle = lit_cloud(first + 1, plane, level, grain);
     var high = lit_cloud(first + 2, plane, level, grain);
-    low.w = lit_blurred(first, plane, way, level, low.w);
-    middle.w = lit_blurred(first + 1, plane, way, level, middle.w);
-    high.w = lit_blurred(first + 2, plane, way, level, high.w);
+    low.shade = lit_blurred(first, plane, way, level, low.shade);
+    middle.shade = lit_blurred(first + 1, plane, way, level, middle.shade);
+    high.shade = lit_blurred(first + 2, plane, way, level, high.shade);
     return lit_over(lit_over(lit_over(behind, high, through), middle, through), low, through);
 }
 

@@ -23,7 +23,8 @@ use crate::params::{LAYERS_AN_ITERATION, MAX_LAYERS};
 pub const PART: Part = Part {
     constants: &[
         ("LIT_LEAST_UP", Value::F32(LEAST_UP)),
-        ("LIT_WEIGHTS", Value::Vec2(WEIGHTS)),
+        ("LIT_FIRST_WEIGHT", Value::F32(WEIGHTS[0])),
+        ("LIT_SECOND_WEIGHT", Value::F32(WEIGHTS[1])),
         (
             "LIT_LAYERS_AN_ITERATION",
             Value::Int(LAYERS_AN_ITERATION as i32),

@@ -9,43 +9,49 @@ struct LitTargets {
 
 // The share of places with less than this blend of two even numbers: the integral of a trapezoid.
 fn lit_even(blend: f32) -> f32 {
-    let foot = LIT_WEIGHTS.y;
-    let corner = 0.5 / (LIT_WEIGHTS.x * LIT_WEIGHTS.y);
+    let foot = LIT_SECOND_WEIGHT;
+    let corner = 0.5 / (LIT_FIRST_WEIGHT * LIT_SECOND_WEIGHT);
     if blend < foot {
         return corner * blend * blend;
     }
-    if blend > LIT_WEIGHTS.x {
+    if blend > LIT_FIRST_WEIGHT {
         return 1.0 - corner * (1.0 - blend) * (1.0 - blend);
     }
-    return (blend - 0.5 * foot) / LIT_WEIGHTS.x;
+    return (blend - 0.5 * foot) / LIT_FIRST_WEIGHT;
 }
 
-// The pack's texture where a layer reads it, both reads blended: normal, density, amount.
-fn lit_noise(layer: LitLayerUniforms, uv: vec2f) -> vec4f {
+// The pack's texture where a layer reads it, both reads blended.
+struct LitNoise {
+    normal: vec2f,
+    density: f32,
+    amount: f32,
+}
+
+fn lit_noise(layer: LitLayerUniforms, uv: vec2f) -> LitNoise {
     let kind = i32(layer.kind);
     let here = textureSampleLevel(layers_texture, repeat_sampler, uv, kind, 0.0);
     let other = textureSampleLevel(layers_texture, repeat_sampler, uv + layer.second_offset, kind, 0.0);
-    let blend = LIT_WEIGHTS.x * here + LIT_WEIGHTS.y * other;
-    return vec4f(blend.xyz, lit_even(blend.w));
+    let blend = LIT_FIRST_WEIGHT * here + LIT_SECOND_WEIGHT * other;
+    return LitNoise(blend.rg, blend.b, lit_even(blend.a));
 }
 
 // R: light that falls on the cloud; G: the amount of cloud; B: opacity; A: shade by the place alone.
 fn lit_map_texel(index: i32, uv: vec2f) -> vec4f {
     let layer = uniforms.lit.layers[index];
     let cloud = lit_noise(layer, uv);
-    let slope = layer.relief * (cloud.xy * 2.0 - 1.0);
+    let slope = layer.relief * (cloud.normal * 2.0 - 1.0);
     let upward = sqrt(max(1.0 - dot(slope, slope), LIT_LEAST_UP));
     let falls = max(dot(slope, layer.sun_uv) + upward * uniforms.lit.light_direction.y, 0.0); // eq. 3
-    let thickness = max(cloud.w - layer.threshold, 0.0);
+    let thickness = max(cloud.amount - layer.threshold, 0.0);
     let alpha = smoothstep(0.0, 1.0, layer.steepness * thickness);
     // Eq. 5 with C = 1 - 2^(-w s), so that it never ends: (1 - C)^m.
     let shade = exp2(-uniforms.lit.m * layer.shade_rate * lit_thick(layer, cloud));
-    return vec4f(falls, cloud.w, alpha, shade);
+    return vec4f(falls, cloud.amount, alpha, shade);
 }
 
 // What a place holds back of the light: thickness above the cut, more where it is dense.
-fn lit_thick(layer: LitLayerUniforms, cloud: vec4f) -> f32 {
-    return max(cloud.w - max(layer.threshold, 0.0), 0.0) * (0.5 + cloud.z);
+fn lit_thick(layer: LitLayerUniforms, cloud: LitNoise) -> f32 {
+    return max(cloud.amount - max(layer.threshold, 0.0), 0.0) * (0.5 + cloud.density);
 }
 
 @fragment

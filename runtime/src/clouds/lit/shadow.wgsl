@@ -6,8 +6,8 @@ fn shadow_iteration(first: i32, texel: vec2f) -> f32 {
     return shadow_layer(first, texel, grain) * shadow_layer(first + 1, texel, grain) * shadow_layer(first + 2, texel, grain);
 }
 
-fn shadow_layer(index: i32, texel: vec2f, grain: vec2f) -> f32 {
-    return 1.0 - lit_cloud(index, shadow_plane(index, texel), uniforms.shadow.layers[index].lod, grain).z;
+fn shadow_layer(index: i32, texel: vec2f, grain: LitGrain) -> f32 {
+    return 1.0 - lit_cloud(index, shadow_plane(index, texel), uniforms.shadow.layers[index].lod, grain).opacity;
 }
 
 fn shadow_plane(index: i32, texel: vec2f) -> vec2f {
