@@ -5,9 +5,7 @@ use std::ops::Deref;
 use serde::{Serialize, Serializer};
 use welkin_pack::shown;
 use welkin_runtime::params::row::{number, seconds, text};
-use welkin_runtime::params::{
-    CommandOption, DefaultSaid, Group, Input, Number, SETTINGS, Setting, Words,
-};
+use welkin_runtime::params::{CommandOption, DefaultSaid, Input, Number, SETTINGS, Setting, Words};
 
 use crate::lightning::{LIGHTNING_FORM, clear_flash, flash_text, set_flash};
 use crate::settings::{LAST_SECOND, Settings};
@@ -37,109 +35,42 @@ pub const KEYS: &[Key] = &{
 };
 
 /// A flash comes after the moment, from which one without a start begins.
-const OWN: &[Setting<Settings>] = &[
-    own([0.0, 30.0], |s| &mut s.flashes_per_min)
-        .unit("a minute", " a minute")
-        .no_option()
-        .named(
-            Group::Weather,
-            "flashes",
-            "Lightning",
-            "Flashes of lightning a minute",
-        ),
-    seconds(LAST_SECOND, |s: &mut Settings| &mut s.at_s)
-        .unit("seconds", " seconds")
-        .logarithmic()
-        .value("SECONDS")
-        .range_said()
-        .named(
-            Group::Time,
-            "at",
-            "Moment",
-            "Moment of the animation, in seconds",
-        ),
-    own([0.0, 1000.0], |s| &mut s.rate)
-        .logarithmic()
-        .no_option()
-        .named(
-            Group::Time,
-            "rate",
-            "Rate",
-            "Seconds of the animation that go by in a second",
-        ),
-    own([0.0, 86_400.0], |s| &mut s.day_length_s)
-        .unit("seconds", " seconds")
-        .logarithmic()
-        .no_option()
-        .named(
-            Group::Time,
-            "day-length",
-            "Day length",
-            "Seconds that a day takes; 0 and the time of day stays",
-        ),
-    text(
-        Input::Text {
-            form: LIGHTNING_FORM,
-        },
-        flash_text,
-        set_flash,
-    )
-    .optional(clear_flash)
-    .value(LIGHTNING_FORM)
-    .default_said(DefaultSaid::Nothing)
-    .command_help(FLASH_HELP)
-    .named(
-        Group::Weather,
-        "lightning",
-        "Flash",
-        "One flash: kilometres to the east and to the south, second at which it begins, strength",
-    ),
-    angle([-360.0, 360.0], |s| &mut s.view.azimuth_deg)
-        .default_said(DefaultSaid::Words("{}; 0 with --equirect"))
-        .named(
-            Group::Camera,
-            "azimuth",
-            "Azimuth",
-            "Azimuth of the view, from north (0) towards east (90)",
-        ),
-    angle([-90.0, 90.0], |s| &mut s.view.elevation_deg)
-        .range_said()
-        .named(
-            Group::Camera,
-            "elevation",
-            "Elevation",
-            "Elevation of the view, -90 to 90: 0 is the horizon, 90 the zenith",
-        ),
-    angle([1.0, 150.0], |s| &mut s.view.fov_deg).named(
-        Group::Camera,
-        "fov",
-        "Field of view",
-        "Vertical field of view",
-    ),
-    place(|s| &mut s.view.east_m).named(
-        Group::Camera,
-        "east",
-        "East",
-        "Where the viewer stands, metres to the east",
-    ),
-    place(|s| &mut s.view.north_m)
-        .command_help("Metres to the north, of the same range")
-        .named(
-            Group::Camera,
-            "north",
-            "North",
-            "Where the viewer stands, metres to the north",
-        ),
-    place(|s| &mut s.view.up_m)
-        .command_help("Metres up, of the same range")
-        .named(
-            Group::Camera,
-            "up",
-            "Up",
-            "Where the viewer stands, metres up",
-        ),
-];
+const OWN: &[Setting<Settings>] = welkin_runtime::settings! {
+    Weather {
+        "flashes" "Lightning" "Flashes of lightning a minute"
+            = own([0.0, 30.0], |s| &mut s.flashes_per_min).unit("a minute", " a minute").no_option();
+    }
+    Time {
+        "at" "Moment" "Moment of the animation, in seconds"
+            = seconds(LAST_SECOND, |s: &mut Settings| &mut s.at_s).unit("seconds", " seconds").logarithmic()
+                .value("SECONDS").range_said();
+        "rate" "Rate" "Seconds of the animation that go by in a second"
+            = own([0.0, 1000.0], |s| &mut s.rate).logarithmic().no_option();
+        "day-length" "Day length" "Seconds that a day takes; 0 and the time of day stays"
+            = own([0.0, 86_400.0], |s| &mut s.day_length_s).unit("seconds", " seconds").logarithmic().no_option();
+    }
+    Weather {
+        "lightning" "Flash" "One flash: kilometres to the east and to the south, second at which it begins, strength"
+            = text(Input::Text { form: LIGHTNING_FORM }, flash_text, set_flash).optional(clear_flash)
+                .value(LIGHTNING_FORM).default_said(DefaultSaid::Nothing).command_help(FLASH_HELP);
+    }
+    Camera {
+        "azimuth" "Azimuth" "Azimuth of the view, from north (0) towards east (90)"
+            = angle([-360.0, 360.0], |s| &mut s.view.azimuth_deg).default_said(DefaultSaid::Words("{}; 0 with --equirect"));
+        "elevation" "Elevation" "Elevation of the view, -90 to 90: 0 is the horizon, 90 the zenith"
+            = angle([-90.0, 90.0], |s| &mut s.view.elevation_deg).range_said();
+        "fov" "Field of view" "Vertical field of view"
+            = angle([1.0, 150.0], |s| &mut s.view.fov_deg);
+        "east" "East" "Where the viewer stands, metres to the east"
+            = place(|s| &mut s.view.east_m);
+        "north" "North" "Where the viewer stands, metres to the north"
+            = place(|s| &mut s.view.north_m).command_help("Metres to the north, of the same range");
+        "up" "Up" "Where the viewer stands, metres up"
+            = place(|s| &mut s.view.up_m).command_help("Metres up, of the same range");
+    }
+};
 
+/// A flash at the command line.
 const FLASH_HELP: &str = "A flash inside the clouds: its place, in kilometres to the east and to the south of the world's origin, \
     -1000 to 1000; the second at which it begins, or else just before --at; its strength, 0 to 1, or else 1";
 

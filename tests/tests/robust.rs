@@ -371,6 +371,16 @@ fn settings_out_of_range_are_told_by_their_names() {
     }
 }
 
+/// As in every frame.
+#[test]
+fn settings_are_checked_and_clamped_without_an_allocation() {
+    let allocated = allocation_counter::measure(|| {
+        let params = std::hint::black_box(SkyParams::default());
+        assert!(params.clamped().check().is_ok());
+    });
+    assert_eq!(allocated.count_total, 0);
+}
+
 fn noon_elevation_rad() -> f32 {
     pack::default_pack().manifest().noon_elevation_rad
 }

@@ -4,6 +4,14 @@ use super::method::Method;
 use super::setting::Words;
 use super::setting::{Command, CommandOption, DefaultSaid, Group, Input, Number, Setting, Slot};
 
+/// A table: in each group a name, a label, a sentence and what is made of the functions of this module, for each setting.
+#[macro_export]
+macro_rules! settings {
+    ($($group:ident { $($name:literal $label:literal $help:literal = $row:expr;)* })*) => {
+        &[$($($row.named($crate::params::Group::$group, $name, $label, $help),)*)*]
+    };
+}
+
 /// From 0 to 1.
 pub const UNIT: [f32; 2] = [0.0, 1.0];
 

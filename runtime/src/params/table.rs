@@ -6,7 +6,7 @@ use super::method::Method;
 use super::octaves::{FORMATION_INTERVAL_S, MAX_OCTAVES};
 use super::perez::{CUSTOM, TURBIDITY};
 use super::row::{UNIT, count, number, switch, text, three};
-use super::setting::{DefaultSaid, Group, Input, Number, Setting};
+use super::setting::{DefaultSaid, Input, Number, Setting};
 use super::sky::{MAX_EXPOSURE, SkyParams};
 use super::sprites::MOST_DISTANCE_M;
 use super::text as texts;
@@ -40,14 +40,8 @@ macro_rules! three {
     };
 }
 
-macro_rules! settings {
-    ($($group:ident { $($name:literal $label:literal $help:literal = $row:expr;)* })*) => {
-        &[$($($row.named(Group::$group, $name, $label, $help),)*)*]
-    };
-}
-
 /// The six of Roden and Parberry, by their names, then what else there is. A setting stands before those that it would undo.
-pub const SETTINGS: &[Setting] = settings! {
+pub const SETTINGS: &[Setting] = crate::settings! {
     Sky {
         "cover" "Cover" "Cloud cover: 0 none, 1 all"
             = plain!(cover, UNIT).value("C").range_said().blends();
