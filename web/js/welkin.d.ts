@@ -73,33 +73,33 @@ export type SettingName =
 
 /** Settings by name. Those that are left out stay as they are. */
 export interface Settings {
-  /** Cloud cover: 0 none, 1 all, 0 to 1. */
+  /** Cloud cover: 0 none, 1 all. From 0 to 1. */
   cover?: number | string;
-  /** Height of the clouds: 0 low, 1 high, 0 to 1. */
+  /** Height of the clouds: 0 low, 1 high. From 0 to 1. */
   height?: number | string;
-  /** Density of the clouds: 0 thin and bumpy, 1 thick, smooth and dark, 0 to 1. */
+  /** Density of the clouds: 0 thin and bumpy, 1 thick, smooth and dark. From 0 to 1. */
   density?: number | string;
-  /** Amount of red on the clouds of a sunset, 0 to 1. */
+  /** Amount of red on the clouds of a sunset. From 0 to 1. */
   sunset?: number | string;
-  /** Speed of the clouds, 0 to 1. */
+  /** Speed of the clouds. From 0 to 1. */
   speed?: number | string;
-  /** Time of day: 0 midnight, 0.25 sunrise, 0.5 noon, 0.75 sunset, 0 to 1. */
+  /** Time of day: 0 midnight, 0.25 sunrise, 0.5 noon, 0.75 sunset. From 0 to 1. */
   time?: number | string;
   /** How the clouds are made. */
   method?: 'packed' | 'octaves' | 'fbm' | 'lit' | 'sprites';
   /** Amount of a thin upper layer, 0 (none) to 1. */
   upper?: number | string;
-  /** How many are summed, 1 to 8. */
+  /** How many octaves are summed. */
   octaves?: number | string;
-  /** How sharply clouds end, 0 to 1. */
+  /** How sharply clouds end. From 0 to 1. */
   'octaves-sharpness'?: number | string;
-  /** Seconds in which clouds form anew, 0.1 to 86400 seconds. */
+  /** Seconds in which clouds form anew. From 0.1 to 86400 seconds. */
   'octaves-interval'?: number | string;
   /** Cover of each dome as a share of the cover; 0 leaves it out. */
   domes?: Value;
   /** Colours of the clouds. */
   palette?: 'fair' | 'stormy';
-  /** How sharply clouds end, 0 to 1. */
+  /** How sharply clouds end. From 0 to 1. */
   'fbm-sharpness'?: number | string;
   /** Reflectance where the light comes through, linear, each 0 to 1. */
   lit?: Value;
@@ -107,29 +107,29 @@ export interface Settings {
   shaded?: Value;
   /** Layers of clouds, KIND:SHARE:HEIGHT between commas. */
   layers?: Value;
-  /** Radius of the dome's rim in metres, 1000 to 1000000. */
+  /** Radius of the dome's rim in metres. From 1000 to 1000000. */
   'dome-radius'?: number | string;
   /** Height of the dome over its radius, 0.02 (flat) to 1 (a hemisphere). */
   flattening?: number | string;
-  /** Light that clouds scatter to all sides, 0 to 1. */
+  /** Light that clouds scatter to all sides. From 0 to 1. */
   k1?: number | string;
-  /** Light that they scatter forwards, which shines around the sun, 0 to 1. */
+  /** Light that they scatter forwards, which shines around the sun. From 0 to 1. */
   k2?: number | string;
-  /** How narrow the shine around the sun is and how fast shade deepens, 0.5 to 16. */
+  /** How narrow the shine around the sun is and how fast shade deepens. From 0.5 to 16. */
   m?: number | string;
-  /** Strength of the full moon's light on clouds, 0 to 1. */
+  /** Strength of the full moon's light on clouds. From 0 to 1. */
   moon?: number | string;
-  /** Seconds in which clouds form anew, 1 to 86400 seconds. */
+  /** Seconds in which clouds form anew. From 1 to 86400 seconds. */
   'lit-interval'?: number | string;
   /** Method of the dome behind the sprites; sprites is a clear one, with the thin upper layer alone. */
   behind?: 'packed' | 'octaves' | 'fbm' | 'lit' | 'sprites';
-  /** Cover of that dome, 0 to 1. */
+  /** Cover of that dome. From 0 to 1. */
   'behind-cover'?: number | string;
-  /** How far clouds are seen, in metres, 8000 to 60000. */
+  /** How far clouds are seen, in metres. From 8000 to 60000. */
   sight?: number | string;
   /** Radius of the ring of impostors in metres, 4000 to 60000: clouds beyond it are pictures; 0 for no ring. */
   ring?: number | string;
-  /** Distance beyond which a cloud is one billboard, in metres, 2000 to 60000. */
+  /** Distance beyond which a cloud is one billboard, in metres. From 2000 to 60000. */
   billboards?: number | string;
   /** The most that clouds have formed, 0 (nothing) to 1 (whole). */
   formation?: number | string;
@@ -138,7 +138,7 @@ export interface Settings {
   /** Haze in the air, 1.7 (clear) to 10 (thick). */
   turbidity?: number | string;
   /** Luminance of a standard sky of ISO 15469, 1 (overcast) to 12 (clear) to 15. */
-  cie?: 'none' | '1' | '2' | '3' | '4' | '5' | '6' | '7' | '8' | '9' | '10' | '11' | '12' | '13' | '14' | '15';
+  cie?: Value;
   /** Luminance by five numbers of one's own. */
   perez?: Value;
   /** The sun's disc and glow. */
@@ -149,29 +149,29 @@ export interface Settings {
   flare?: number | string;
   /** Whether the flare's picture of the sun is a starburst instead of a disc. */
   starburst?: boolean | 'true' | 'false';
-  /** How far the pack's skybox takes the place of the computed sky, 0 to 1. */
+  /** How far the pack's skybox takes the place of the computed sky. From 0 to 1. */
   skybox?: number | string;
   /** Strength of the sun's rays between the clouds, 0 (off) to 1. */
   rays?: number | string;
   /** Strength of the rain, 0 (off) to 1. */
   rain?: number | string;
-  /** Flashes of lightning a minute, 0 to 30. */
+  /** Flashes of lightning a minute. From 0 to 30. */
   flashes?: number | string;
   /** Moment of the animation, in seconds. */
   at?: number | string;
-  /** Seconds of the animation that go by in a second, 0 to 1000. */
+  /** Seconds of the animation that go by in a second. From 0 to 1000. */
   rate?: number | string;
-  /** Seconds that a day takes; 0 and the time of day stays, 0 to 86400 seconds. */
+  /** Seconds that a day takes; 0 and the time of day stays. From 0 to 86400 seconds. */
   'day-length'?: number | string;
   /** One flash: kilometres to the east and to the south, second at which it begins, strength. */
   lightning?: Value;
-  /** Azimuth of the view, from north (0) towards east (90), -360 to 360 degrees. */
+  /** Azimuth of the view, from north (0) towards east (90). From -360 to 360 degrees. */
   azimuth?: number | string;
   /** Elevation of the view, -90 to 90: 0 is the horizon, 90 the zenith. */
   elevation?: number | string;
-  /** Vertical field of view, 1 to 150 degrees. */
+  /** Vertical field of view. From 1 to 150 degrees. */
   fov?: number | string;
-  /** Where the viewer stands, metres to the east, -1000000 to 1000000. */
+  /** Where the viewer stands, metres to the east. From -1000000 to 1000000. */
   east?: number | string;
   /** Where the viewer stands, metres to the north. */
   north?: number | string;
