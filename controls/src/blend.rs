@@ -3,10 +3,12 @@
 //! Numbers go over smoothly; what is no number changes at once. The time of day takes the shorter way round the clock. A number that a
 //! person moves meanwhile is theirs from then on.
 
+use welkin_runtime::params::{Number, SETTINGS, Setting};
+
 use crate::settings::Settings;
 
 /// A way over seconds.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Blend {
     /// The numbers that change.
     ways: Vec<Way>,
@@ -14,10 +16,10 @@ pub struct Blend {
     duration_s: f32,
 }
 
-/// A number that changes: which of [`numbers`] it is, and its way.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A number that changes, and its way.
+#[derive(Clone, Copy, Debug)]
 struct Way {
-    index: usize,
+    number: &'static Number,
     from: f32,
     to: f32,
     /// What it was set to last.
@@ -27,24 +29,19 @@ struct Way {
 impl Blend {
     /// Begins the way from `settings` to `goal`: what is no number is set at once. A way of no length is gone at once.
     pub fn begin(settings: &mut Settings, goal: &Settings, duration_s: f32) -> Blend {
-        let mut start = *goal;
+        let (mut now, mut start) = (settings.params, *goal);
         let mut ways = Vec::new();
-        let (mut now, mut then) = (*settings, *goal);
-        let values = numbers(&mut now).into_iter().zip(numbers(&mut then));
-        for (index, (from, to)) in values.enumerate() {
-            if from != to {
-                let (from, to) = (*from, *to);
-                let last = from;
+        for number in numbers() {
+            let (from, to) = (*(number.place)(&mut now), (number.place)(&mut start.params));
+            if from != *to {
                 ways.push(Way {
-                    index,
+                    number,
                     from,
-                    to,
-                    last,
+                    to: *to,
+                    last: from,
                 });
             }
-        }
-        for (place, from) in numbers(&mut start).into_iter().zip(numbers(&mut now)) {
-            *place = *from;
+            *to = from;
         }
         *settings = start;
         let mut blend = Blend {
@@ -66,9 +63,8 @@ impl Blend {
         } else {
             1.0
         };
-        let mut places = numbers(settings);
         self.ways.retain_mut(|way| {
-            let place = &mut *places[way.index];
+            let place = (way.number.place)(&mut settings.params);
             if *place != way.last {
                 return false;
             }
@@ -94,7 +90,7 @@ impl Way {
         }
         // No speed at either end.
         let eased = share * share * (3.0 - 2.0 * share);
-        if self.index == TIME {
+        if self.number.field == CLOCK {
             let way = (self.to - self.from + 0.5).rem_euclid(1.0) - 0.5;
             return (self.from + way * eased).rem_euclid(1.0);
         }
@@ -102,27 +98,13 @@ impl Way {
     }
 }
 
-/// The place of the time of day among [`numbers`].
-const TIME: usize = 0;
+/// The time of day, which goes round.
+const CLOCK: &str = "time";
 
 /// Every number of a weather that may stand between two others.
-fn numbers(settings: &mut Settings) -> Vec<&mut f32> {
-    let params = &mut settings.params;
-    let mut numbers = vec![
-        &mut params.time,
-        &mut params.cover,
-        &mut params.height,
-        &mut params.density,
-        &mut params.sunset,
-        &mut params.speed,
-        &mut params.upper_layer,
-        &mut params.weather.rays,
-        &mut params.weather.rain,
-        &mut params.fbm.sharpness,
-    ];
-    numbers.extend(&mut params.fbm.lit);
-    numbers.extend(&mut params.fbm.shaded);
-    numbers
+fn numbers() -> impl Iterator<Item = &'static Number> {
+    let blended = SETTINGS.iter().filter(|setting| setting.words.blends);
+    blended.flat_map(Setting::numbers)
 }
 
 #[cfg(test)]

@@ -7,26 +7,22 @@
 //! - [`Pilot`]: looking and flying with mouse and keys.
 
 mod blend;
+mod by_name;
 mod flashes;
-mod key;
 mod keys;
-mod layers;
 mod lightning;
 mod pilot;
 mod preset;
 mod settings;
-mod text;
 #[cfg(feature = "toml")]
 mod toml;
-pub mod values;
 
 pub use blend::Blend;
-pub use key::{Group, Input, Key};
-pub use keys::KEYS;
-pub use layers::{LAYERS_FORM, layers, layers_help, layers_text};
+pub use keys::{KEYS, Key, SettingError};
 pub use lightning::{Flash, LIGHTNING_FORM, lightning};
 pub use pilot::{Keys, Pilot};
 pub use preset::{PRESETS, Preset};
-pub use settings::{SettingError, Settings, Viewpoint};
+pub use settings::{Settings, Viewpoint};
 #[cfg(feature = "toml")]
 pub use toml::TomlError;
+pub use welkin_runtime::params::{Group, Input, Setting, Words};

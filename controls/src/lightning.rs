@@ -1,8 +1,9 @@
 //! A flash of lightning as text.
 
 use welkin_runtime::params::Lightning;
+use welkin_runtime::params::{FLASH_PLACE_M, FLASH_START_S, FLASH_STRENGTH, NONE, within};
 
-use crate::values::{of_sky, place_km};
+use crate::settings::Settings;
 
 /// How it is written.
 pub const LIGHTNING_FORM: &str = "EAST_KM,SOUTH_KM[,START_S[,STRENGTH]]";
@@ -32,8 +33,9 @@ impl Flash {
     }
 }
 
-/// A flash as text, or `none`.
-pub(crate) fn lightning_text(flash: &Lightning) -> String {
+/// The flash of the settings as text, or [`NONE`].
+pub(crate) fn flash_text(settings: &Settings) -> String {
+    let flash = &settings.params.weather.lightning;
     if flash.strength == 0.0 {
         return NONE.to_string();
     }
@@ -42,8 +44,14 @@ pub(crate) fn lightning_text(flash: &Lightning) -> String {
     format!("{east_km},{south_km},{},{}", flash.start_s, flash.strength)
 }
 
-/// Text for what is not there.
-pub(crate) const NONE: &str = "none";
+pub(crate) fn set_flash(settings: &mut Settings, text: &str) -> Result<(), String> {
+    settings.params.weather.lightning = lightning(text)?.at(settings.at_s);
+    Ok(())
+}
+
+pub(crate) fn clear_flash(settings: &mut Settings) {
+    settings.params.weather.lightning = Lightning::default();
+}
 
 /// Two to four numbers between commas.
 ///
@@ -61,18 +69,20 @@ pub fn lightning(text: &str) -> Result<Flash, String> {
             ));
         }
     };
-    let start_s = |text: &str| {
-        let value = of_sky(text, |sky, v| sky.weather.lightning.start_s = v, " seconds");
-        told("START_S", text, value)
+    let [low_km, high_km] = FLASH_PLACE_M.map(|m| m / 1e3);
+    let place_m = |name, text: &str| {
+        let place_km = within(text, low_km..=high_km, " kilometres");
+        told(name, text, place_km).map(|km| 1000.0 * km)
     };
-    let share = of_sky(strength, |sky, v| sky.weather.lightning.strength = v, "");
+    let start_s = |text: &str| {
+        let [first, last] = FLASH_START_S;
+        told("START_S", text, within(text, first..=last, " seconds"))
+    };
+    let [least, most] = FLASH_STRENGTH;
     Ok(Flash {
-        place_m: [
-            1000.0 * told("EAST_KM", east, place_km(east))?,
-            1000.0 * told("SOUTH_KM", south, place_km(south))?,
-        ],
+        place_m: [place_m("EAST_KM", east)?, place_m("SOUTH_KM", south)?],
         start_s: start.map(start_s).transpose()?,
-        strength: told("STRENGTH", strength, share)?,
+        strength: told("STRENGTH", strength, within(strength, least..=most, ""))?,
     })
 }
 

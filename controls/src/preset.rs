@@ -1,8 +1,9 @@
 //! Weathers: settings that go together, by name.
 
-use crate::key::Input;
-use crate::keys::key;
-use crate::settings::{SettingError, Settings};
+use welkin_runtime::params::Input;
+
+use crate::keys::{SettingError, key};
+use crate::settings::Settings;
 
 /// A weather.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]

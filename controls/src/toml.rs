@@ -2,10 +2,10 @@
 
 use toml::{Table, Value};
 use welkin_pack::shown;
+use welkin_runtime::params::Input;
 
-use crate::key::{Input, Key};
-use crate::keys::KEYS;
-use crate::settings::{SettingError, Settings};
+use crate::keys::{KEYS, Key, SettingError};
+use crate::settings::Settings;
 
 /// Why a document is no settings.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -3,7 +3,10 @@
 /// A kind of cloud, in the order of the images of the role `layers`.
 ///
 /// World Meteorological Organization, "International Cloud Atlas", WMO-No. 407, 2017, section 2.3.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
+)]
+#[serde(rename_all = "lowercase")]
 pub enum LayerKind {
     /// A sheet of rounded lumps and rolls with gaps between them.
     Stratocumulus,

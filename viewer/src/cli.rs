@@ -1,21 +1,17 @@
 //! The command line: every option with its range. Angles are in degrees here and nowhere else.
 
 mod bench;
-mod clear_sky;
-mod clouds;
 mod export;
-mod lit;
+mod given;
 mod render;
-mod sprites;
+mod settings;
 mod values;
-mod weather;
 mod window;
 
 use std::ffi::OsString;
 
 use clap::error::ErrorKind;
-use clap::parser::ValueSource;
-use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 pub use bench::{BenchArgs, Protocol};
 pub use export::Shot;
@@ -69,16 +65,6 @@ impl Cli {
         })?;
         Ok(cli)
     }
-}
-
-/// Whether an option stands on the command line.
-fn is_given(given: &ArgMatches, option: &str) -> bool {
-    given.value_source(option) == Some(ValueSource::CommandLine)
-}
-
-/// Says that an option is for another choice than the one that was made, and what to do.
-fn belongs(option: &str, owner: &str, chosen: &str, remedy: &str) -> String {
-    format!("--{option} belongs to {owner}, and {chosen} does not use it; leave it out or {remedy}")
 }
 
 #[cfg(test)]

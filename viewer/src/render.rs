@@ -24,12 +24,12 @@ const MOST_OFF_OKTAS: f32 = 0.5;
 pub fn run(args: &RenderArgs) -> Result<()> {
     // The name is checked before anything slow begins.
     let shot = args.shot().map_err(Error::msg)?;
-    let outputs = [Some(&args.output), args.lit.shadow.as_ref()];
+    let outputs = [Some(&args.output), args.shadow.as_ref()];
     let outputs: Vec<&Path> = outputs.into_iter().flatten().map(AsRef::as_ref).collect();
     verify_apart(&[&args.pack], &outputs)?;
     let pack = Pack::open(&args.pack)?;
     ensure!(
-        args.light.skybox.is_none() || pack.texture(Role::Skybox).is_some(),
+        !args.settings.is_given("skybox") || pack.texture(Role::Skybox).is_some(),
         "{}: has no skybox, so --skybox changes nothing; leave it out, or bake a pack from a recipe with a [skybox] table",
         args.pack.display()
     );
@@ -40,23 +40,29 @@ pub fn run(args: &RenderArgs) -> Result<()> {
         args.pack.display(),
         SkyError::MissingField
     );
-    if let Some(oktas) = args.sky.oktas {
+    if let Some(oktas) = args.oktas {
         view.params.cover = cover_for_oktas(&pack, &view.params, oktas)?;
     }
     let gpu = Gpu::open()?;
-    let sequence = args.export.sequence(args.at);
+    let sequence = args.export.sequence(view.seconds);
     tell_leftovers(&sweep_beside(&args.output));
     match (shot, sequence) {
         (Shot::Frame(format), None) => {
             let drawn = render(&gpu, &pack, format.target(), &view)?;
             save(&args.output, &drawn.frame)?;
-            if let (Some(file), Some(shadow)) = (&args.lit.shadow, &drawn.shadow) {
+            if let (Some(file), Some(shadow)) = (&args.shadow, &drawn.shadow) {
                 save(file, shadow)?;
             }
             Ok(())
         }
         (shot, sequence) => {
-            let azimuth_rad = args.camera.azimuth.unwrap_or(0.0).to_radians();
+            let settings = &args.settings;
+            let azimuth_deg = if settings.is_given("azimuth") {
+                settings.settings.view.azimuth_deg
+            } else {
+                0.0
+            };
+            let azimuth_rad = azimuth_deg.to_radians();
             let artist = Artist::new(&gpu, &pack, shot, azimuth_rad)?;
             match sequence {
                 None => artist::draw(artist, &view, &args.output),

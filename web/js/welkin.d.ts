@@ -12,39 +12,174 @@ export type PackSource = string | URL | Files;
 /** A setting's value. Lists are written with commas between their parts. */
 export type Value = string | number | boolean | readonly (string | number)[];
 
-/**
- * Settings by name. All of them, with words and ranges, are what {@link controls} gives; these are the most used. Those that are left out stay
- * as they are.
- */
+// Settings, as the table in runtime/src/params/table.rs has them: a test holds this block to it.
+/** A system that makes the clouds. */
+export type MethodName = 'packed' | 'octaves' | 'fbm' | 'lit' | 'sprites';
+
+/** The name of a setting. */
+export type SettingName =
+  | 'cover'
+  | 'height'
+  | 'density'
+  | 'sunset'
+  | 'speed'
+  | 'time'
+  | 'method'
+  | 'upper'
+  | 'octaves'
+  | 'octaves-sharpness'
+  | 'octaves-interval'
+  | 'domes'
+  | 'palette'
+  | 'fbm-sharpness'
+  | 'lit'
+  | 'shaded'
+  | 'layers'
+  | 'dome-radius'
+  | 'flattening'
+  | 'k1'
+  | 'k2'
+  | 'm'
+  | 'moon'
+  | 'lit-interval'
+  | 'behind'
+  | 'behind-cover'
+  | 'sight'
+  | 'ring'
+  | 'billboards'
+  | 'formation'
+  | 'sky'
+  | 'turbidity'
+  | 'cie'
+  | 'perez'
+  | 'sun'
+  | 'stars'
+  | 'flare'
+  | 'starburst'
+  | 'skybox'
+  | 'rays'
+  | 'rain'
+  | 'flashes'
+  | 'at'
+  | 'rate'
+  | 'day-length'
+  | 'lightning'
+  | 'azimuth'
+  | 'elevation'
+  | 'fov'
+  | 'east'
+  | 'north'
+  | 'up';
+
+/** Settings by name. Those that are left out stay as they are. */
 export interface Settings {
-  /** Which system makes the clouds. */
+  /** Cloud cover: 0 none, 1 all. From 0 to 1. */
+  cover?: number | string;
+  /** Height of the clouds: 0 low, 1 high. From 0 to 1. */
+  height?: number | string;
+  /** Density of the clouds: 0 thin and bumpy, 1 thick, smooth and dark. From 0 to 1. */
+  density?: number | string;
+  /** Amount of red on the clouds of a sunset. From 0 to 1. */
+  sunset?: number | string;
+  /** Speed of the clouds. From 0 to 1. */
+  speed?: number | string;
+  /** Time of day: 0 midnight, 0.25 sunrise, 0.5 noon, 0.75 sunset. From 0 to 1. */
+  time?: number | string;
+  /** How the clouds are made. */
   method?: 'packed' | 'octaves' | 'fbm' | 'lit' | 'sprites';
-  /** Amount of cloud, 0 (clear) to 1 (overcast). */
-  cover?: number;
-  /** Height of the clouds, 0 (low) to 1 (high). */
-  height?: number;
-  /** Density of the clouds, 0 (bumpy and bright) to 1 (smooth with dark cores). */
-  density?: number;
-  /** Red on the clouds of a sunset, 0 to 1. */
-  sunset?: number;
-  /** Speed of the clouds, 0 (still) to 1. */
-  speed?: number;
-  /** Time of day, 0 to 1: 0 midnight, 0.25 sunrise, 0.5 noon, 0.75 sunset. */
-  time?: number;
-  /** Layers of clouds of the method `lit`, `KIND[:SHARE[:HEIGHT[:EAST:SOUTH]]]` between commas; EAST and SOUTH are a velocity in metres a second. */
-  layers?: string;
-  /** Whether the lens flare's picture of the sun is a starburst instead of a disc. */
-  starburst?: boolean;
-  /** Moment of the animation in seconds, 0 to 1e9. */
-  at?: number;
-  /** Where one looks, in degrees from north (0) towards east (90), -360 to 360. */
-  azimuth?: number;
-  /** Degrees above the horizon, -90 to 90. */
-  elevation?: number;
-  /** Vertical field of view in degrees, 1 to 150. */
-  fov?: number;
+  /** Amount of a thin upper layer, 0 (none) to 1. */
+  upper?: number | string;
+  /** How many octaves are summed. */
+  octaves?: number | string;
+  /** How sharply clouds end. From 0 to 1. */
+  'octaves-sharpness'?: number | string;
+  /** Seconds in which clouds form anew. From 0.1 to 86400 seconds. */
+  'octaves-interval'?: number | string;
+  /** Cover of each dome as a share of the cover; 0 leaves it out. */
+  domes?: Value;
+  /** Colours of the clouds. */
+  palette?: 'fair' | 'stormy';
+  /** How sharply clouds end. From 0 to 1. */
+  'fbm-sharpness'?: number | string;
+  /** Reflectance where the light comes through, linear, each 0 to 1. */
+  lit?: Value;
+  /** Reflectance where clouds shade themselves, linear, each 0 to 1. */
+  shaded?: Value;
+  /** Layers of clouds, KIND:SHARE:HEIGHT between commas. */
+  layers?: Value;
+  /** Radius of the dome's rim in metres. From 1000 to 1000000. */
+  'dome-radius'?: number | string;
+  /** Height of the dome over its radius, 0.02 (flat) to 1 (a hemisphere). */
+  flattening?: number | string;
+  /** Light that clouds scatter to all sides. From 0 to 1. */
+  k1?: number | string;
+  /** Light that they scatter forwards, which shines around the sun. From 0 to 1. */
+  k2?: number | string;
+  /** How narrow the shine around the sun is and how fast shade deepens. From 0.5 to 16. */
+  m?: number | string;
+  /** Strength of the full moon's light on clouds. From 0 to 1. */
+  moon?: number | string;
+  /** Seconds in which clouds form anew. From 1 to 86400 seconds. */
+  'lit-interval'?: number | string;
+  /** Method of the dome behind the sprites; sprites is a clear one, with the thin upper layer alone. */
+  behind?: 'packed' | 'octaves' | 'fbm' | 'lit' | 'sprites';
+  /** Cover of that dome. From 0 to 1. */
+  'behind-cover'?: number | string;
+  /** How far clouds are seen, in metres. From 8000 to 60000. */
+  sight?: number | string;
+  /** Radius of the ring of impostors in metres, 4000 to 60000: clouds beyond it are pictures; 0 for no ring. */
+  ring?: number | string;
+  /** Distance beyond which a cloud is one billboard, in metres. From 2000 to 60000. */
+  billboards?: number | string;
+  /** The most that clouds have formed, 0 (nothing) to 1 (whole). */
+  formation?: number | string;
+  /** How the clear sky is computed. */
+  sky?: 'gradient' | 'perez';
+  /** Haze in the air, 1.7 (clear) to 10 (thick). */
+  turbidity?: number | string;
+  /** Luminance of a standard sky of ISO 15469, 1 (overcast) to 12 (clear) to 15. */
+  cie?: Value;
+  /** Luminance by five numbers of one's own. */
+  perez?: Value;
+  /** The sun's disc and glow. */
+  sun?: boolean | 'true' | 'false';
+  /** Stars and galaxy. */
+  stars?: boolean | 'true' | 'false';
+  /** Strength of the lens flare, 0 (off) to 1. */
+  flare?: number | string;
+  /** Whether the flare's picture of the sun is a starburst instead of a disc. */
+  starburst?: boolean | 'true' | 'false';
+  /** How far the pack's skybox takes the place of the computed sky. From 0 to 1. */
+  skybox?: number | string;
+  /** Strength of the sun's rays between the clouds, 0 (off) to 1. */
+  rays?: number | string;
+  /** Strength of the rain, 0 (off) to 1. */
+  rain?: number | string;
+  /** Flashes of lightning a minute. From 0 to 30. */
+  flashes?: number | string;
+  /** Moment of the animation, in seconds. */
+  at?: number | string;
+  /** Seconds of the animation that go by in a second. From 0 to 1000. */
+  rate?: number | string;
+  /** Seconds that a day takes; 0 and the time of day stays. From 0 to 86400 seconds. */
+  'day-length'?: number | string;
+  /** One flash: kilometres to the east and to the south, second at which it begins, strength. */
+  lightning?: Value;
+  /** Azimuth of the view, from north (0) towards east (90). From -360 to 360 degrees. */
+  azimuth?: number | string;
+  /** Elevation of the view, -90 to 90: 0 is the horizon, 90 the zenith. */
+  elevation?: number | string;
+  /** Vertical field of view. From 1 to 150 degrees. */
+  fov?: number | string;
+  /** Where the viewer stands, metres to the east. From -1000000 to 1000000. */
+  east?: number | string;
+  /** Where the viewer stands, metres to the north. */
+  north?: number | string;
+  /** Where the viewer stands, metres up. */
+  up?: number | string;
   [name: string]: Value | undefined;
 }
+// Settings end.
 
 export interface SkyOptions {
   /** `auto` if it is left out. */
@@ -108,11 +243,11 @@ export interface Sky {
   /** Every setting's text. `set` takes them back. */
   get(): Record<string, string>;
   /** Names and texts of the settings that are not the usual ones: what a link holds. */
-  changes(): [string, string][];
+  changes(): [SettingName, string][];
   /** Names of the settings that the sky looks at, with these settings. */
-  applies(): string[];
+  applies(): SettingName[];
   /** Gives a setting its usual value, or all of them. */
-  reset(name?: string): this;
+  reset(name?: SettingName): this;
   /** Goes over to a preset, in so many seconds of {@link Sky.advance}; at once if they are left out. */
   preset(name: string, seconds?: number): this;
   /** Whether the way to a preset goes on. */
@@ -168,7 +303,7 @@ export interface Report {
 export type Input =
   | { kind: 'slider'; low: number; high: number; unit: string; logarithmic: boolean; whole: boolean }
   | { kind: 'switch' }
-  | { kind: 'choice'; choices: string[] }
+  | { kind: 'choice'; choices: string[]; meanings: string[] }
   | { kind: 'numbers'; names: string[]; ranges: [number, number][]; optional: boolean }
   | { kind: 'colour' }
   | { kind: 'layers' }
@@ -176,13 +311,22 @@ export type Input =
 
 /** A setting, with its words for a person. */
 export interface Key {
-  name: string;
+  name: SettingName;
   label: string;
   help: string;
   group: 'sky' | 'clouds' | 'air' | 'light' | 'weather' | 'time' | 'camera';
   input: Input;
   /** The methods that look at it. */
-  methods: string[];
+  methods: MethodName[];
+}
+
+/** A system that makes the clouds. */
+export interface Method {
+  name: MethodName;
+  /** What it is, in a few words. */
+  title: string;
+  /** Where it was published. */
+  paper: string;
 }
 
 export interface Preset {
@@ -194,6 +338,7 @@ export interface Preset {
 
 export interface Controls {
   keys: Key[];
+  methods: Method[];
   presets: Preset[];
   /** What the setting `layers` may be made of. */
   layers: { kinds: string[]; most: number };
@@ -226,7 +371,7 @@ export function createSky(canvas: HTMLCanvasElement, pack: PackSource, options?:
 /** Fetches the files of a pack: its manifest, then all that it names at once. A file that is not there is left out. */
 export function fetchPack(address: string | URL, onprogress?: (done: number, total: number) => void): Promise<Map<string, Uint8Array>>;
 
-/** Every setting, the presets, what layers may be. */
+/** Every setting, the methods, the presets, what layers may be. */
 export function controls(): Promise<Controls>;
 
 /**

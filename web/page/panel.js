@@ -5,23 +5,14 @@ import { byId, el } from './dom.js';
 
 const GROUPS = { clouds: 'Clouds', air: 'Air', light: 'Light', weather: 'Weather', time: 'Time', camera: 'Camera' };
 
-/** Where the methods were published. */
-const PAPERS = {
-  packed: 'T. Roden, I. Parberry, “Clouds and Stars”, 2005',
-  octaves: 'A. Meena and others, “Realistic Real-Time Skies”, USC',
-  fbm: 'I. Quilez, “Dynamic Clouds”, 2005',
-  lit: 'K. Mukhina, A. Bezgodov, “The Method for Real-time Cloud Rendering”, 2015',
-  sprites: 'N. Wang, “Let There Be Clouds!”, 2004',
-};
-
 /**
  * Builds the panel.
- * @param {{keys: object[], presets: object[]}} table
+ * @param {{keys: object[], methods: object[], presets: object[]}} table
  * @param {import('./controls.js').Change & {preset(name: string): void}} change
  * @returns {{show(state: {values: Record<string, string>, applies: Set<string>, changed: Set<string>, weather: string | null}): void}}
  */
-export function buildPanel({ keys, presets }, change) {
-  const method = methods(keys.find(({ name }) => name === 'method'), change);
+export function buildPanel({ keys, methods, presets }, change) {
+  const method = choiceOfMethod(methods, change);
   const weather = weathers(presets, change);
   const rows = keys.filter(({ name }) => name !== 'method').map((key) => ({ key, row: controlRow(key, change) }));
   const of = (group) => rows.filter(({ key }) => key.group === group).map(({ row }) => row.element);
@@ -50,18 +41,18 @@ export function buildPanel({ keys, presets }, change) {
 export const isNarrow = () => matchMedia('(max-width: 640px)').matches;
 
 /** One of five, side by side. */
-function methods(key, change) {
+function choiceOfMethod(methods, change) {
   const place = byId('methods');
-  const paper = byId('paper');
-  const radios = key.input.choices.map((name) => {
+  const published = byId('paper');
+  const radios = methods.map(({ name, paper }) => {
     const radio = el('input', { type: 'radio', name: 'method', id: `method-${name}`, value: name, on: { change: () => change.set('method', name) } });
-    place.append(el('span', { class: 'segment' }, radio, el('label', { for: radio.id, title: PAPERS[name] ?? '' }, name)));
+    place.append(el('span', { class: 'segment' }, radio, el('label', { for: radio.id, title: paper }, name)));
     return radio;
   });
   return (now) => {
     for (const radio of radios) radio.checked = radio.value === now;
-    paper.textContent = PAPERS[now] ?? '';
-    paper.title = paper.textContent;
+    published.textContent = methods.find(({ name }) => name === now)?.paper ?? '';
+    published.title = published.textContent;
   };
 }
 

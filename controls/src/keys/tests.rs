@@ -1,4 +1,5 @@
 use proptest::prelude::*;
+use welkin_runtime::params::Slot;
 
 use super::*;
 
@@ -20,7 +21,7 @@ fn a_text(key: &Key, a: f64, b: f64) -> String {
         }
         Input::Slider { low, high, .. } => between([low, high], a).to_string(),
         Input::Switch => (a < 0.5).to_string(),
-        Input::Choice { choices } => {
+        Input::Choice { choices, .. } => {
             choices[(a * choices.len() as f64) as usize % choices.len()].to_string()
         }
         Input::Numbers { optional: true, .. } if b < 0.5 => "none".to_string(),
@@ -96,24 +97,21 @@ fn the_papers_six_come_first_with_its_names() {
 
 #[test]
 fn sliders_end_where_the_sky_ends() {
-    // The pace of time is no part of the sky, and a camera takes anything.
-    let of_sky =
-        |key: &&Key| !matches!(key.group, Group::Camera | Group::Time) && key.name != "flashes";
-    let numbers = KEYS.iter().filter(of_sky);
-    for key in numbers.filter(|key| matches!(key.slot, Slot::Number(_) | Slot::Count(_))) {
-        let Input::Slider { low, high, .. } = key.input else {
-            panic!("{}", key.name);
+    for setting in SETTINGS {
+        let (key, Input::Slider { low, high, .. }) = (Key::Sky(setting), setting.words.input)
+        else {
+            continue;
         };
         for (end, beyond) in [(low, low - 1.0), (high, high * 1.001 + 0.1)] {
             let mut settings = Settings::default();
             key.set(&mut settings, &(end as f32).to_string()).unwrap();
             assert_eq!(settings.params.check(), Ok(()));
-            match key.slot {
-                Slot::Number(place) => *place(&mut settings) = beyond as f32,
-                Slot::Count(place) => *place(&mut settings) = beyond.ceil() as u32,
-                _ => unreachable!(),
+            let params = &mut settings.params;
+            match &setting.slot {
+                Slot::Count { place, .. } => *place(params) = beyond.ceil() as u32,
+                _ => *(setting.numbers()[0].place)(params) = beyond as f32,
             }
-            assert!(settings.params.check().is_err(), "{}: {beyond}", key.name);
+            assert!(params.check().is_err(), "{}: {beyond}", key.name);
             assert!(key.set(&mut settings, &beyond.to_string()).is_err());
         }
     }

@@ -80,5 +80,4 @@ pub const SKIES: [StandardSky; STANDARD_SKIES as usize] = [
     ),
 ];
 
-/// The overcast ones among them: types 1 to this one.
-pub const LAST_OVERCAST: u8 = 5;
+pub use crate::params::LAST_OVERCAST;

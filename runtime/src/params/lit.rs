@@ -2,19 +2,28 @@
 
 use welkin_pack::LayerKind;
 
-use super::range::Ranged;
-
 /// The most layers: two iterations of three.
 pub const MAX_LAYERS: usize = 6;
 
 // The literal, since rustc 1.95 stumbles over a named length where a closure updates a captured `LitParams`.
 const _: () = assert!(MAX_LAYERS == 6);
 
+/// The least and the largest [`LitLayer::share`].
+pub const SHARE: [f32; 2] = [0.0, 1.0];
+
+/// The least and the largest [`LitLayer::height`], in heights of the dome.
+pub const LAYER_HEIGHT: [f32; 2] = [0.1, 20.0];
+
+/// The least and the largest [`LitLayer::velocity_m_s`], along each axis.
+pub const VELOCITY_M_S: [f32; 2] = [-200.0, 200.0];
+
 /// The layers that one iteration draws.
 pub const LAYERS_AN_ITERATION: usize = 3;
 
 /// What [`crate::Method::Lit`] alone knows. See [`crate::clouds::lit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
 pub struct LitParams {
     /// Radius of the dome's rim in metres, 1000..=1000000: the paper's user-defined size.
     pub radius_m: f32,
@@ -36,6 +45,7 @@ pub struct LitParams {
 
 /// A layer of clouds of one kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LitLayer {
     /// Which layer of the pack's texture it shows.
     pub kind: LayerKind,
@@ -108,58 +118,3 @@ impl Default for LitParams {
         }
     }
 }
-
-/// Every number that has a range.
-pub(super) fn numbers(lit: &mut LitParams) -> Vec<Ranged<'_>> {
-    let usual = LitParams::default();
-    let mut numbers: Vec<Ranged<'_>> = vec![
-        (
-            "lit.radius_m",
-            &mut lit.radius_m,
-            usual.radius_m,
-            [1e3, 1e6],
-        ),
-        (
-            "lit.flattening",
-            &mut lit.flattening,
-            usual.flattening,
-            [0.02, 1.0],
-        ),
-        ("lit.k1", &mut lit.k1, usual.k1, [0.0, 1.0]),
-        ("lit.k2", &mut lit.k2, usual.k2, [0.0, 1.0]),
-        ("lit.m", &mut lit.m, usual.m, [0.5, 16.0]),
-        (
-            "lit.formation_interval_s",
-            &mut lit.formation_interval_s,
-            usual.formation_interval_s,
-            [1.0, 86_400.0],
-        ),
-        ("lit.moon", &mut lit.moon, usual.moon, [0.0, 1.0]),
-    ];
-    let layers = lit.layers.iter_mut().zip(&LAYER_KEYS).zip(&usual.layers);
-    for ((layer, [share, height, east, south]), usual) in layers {
-        let [to_east, to_south] = &mut layer.velocity_m_s;
-        let [usual_east, usual_south] = usual.velocity_m_s;
-        numbers.extend([
-            (*share, &mut layer.share, usual.share, [0.0, 1.0]),
-            (*height, &mut layer.height, usual.height, [0.1, 20.0]),
-            (*east, to_east, usual_east, [-200.0, 200.0]),
-            (*south, to_south, usual_south, [-200.0, 200.0]),
-        ]);
-    }
-    numbers
-}
-
-/// Names of a layer's numbers, for errors.
-macro_rules! layer_keys {
-    ($($index:literal),*) => {
-        [$([
-            concat!("lit.layers[", $index, "].share"),
-            concat!("lit.layers[", $index, "].height"),
-            concat!("lit.layers[", $index, "].velocity_m_s[0]"),
-            concat!("lit.layers[", $index, "].velocity_m_s[1]"),
-        ]),*]
-    };
-}
-
-const LAYER_KEYS: [[&str; 4]; MAX_LAYERS] = layer_keys!(0, 1, 2, 3, 4, 5);

@@ -2,6 +2,8 @@
 
 /// Which published system makes the clouds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Method {
     /// One packed texture: T. Roden, I. Parberry, ACE 2005. See [`crate::clouds::shared`].
     #[default]
@@ -62,10 +64,46 @@ impl Method {
             Method::Sprites => "sprites",
         }
     }
+
+    /// What it is, in a few words.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Method::Packed => "Roden and Parberry: one packed cloud texture",
+            #[cfg(feature = "octaves")]
+            Method::Octaves => "USC: octaves of white noise that form anew, on three domes",
+            #[cfg(feature = "fbm")]
+            Method::Fbm => {
+                "Quilez: octaves of smooth noise that drift, lit by a short march towards the sun"
+            }
+            #[cfg(feature = "lit")]
+            Method::Lit => "Mukhina and Bezgodov: layers of three kinds, lit by sun and moon",
+            #[cfg(feature = "sprites")]
+            Method::Sprites => "Wang: clouds in space, made of sprites",
+        }
+    }
+
+    /// Where it was published.
+    pub const fn paper(self) -> &'static str {
+        match self {
+            Method::Packed => "T. Roden, I. Parberry, “Clouds and Stars”, 2005",
+            #[cfg(feature = "octaves")]
+            Method::Octaves => "S. Guthikonda and others, “Realistic Real-Time Skies”, USC",
+            #[cfg(feature = "fbm")]
+            Method::Fbm => "I. Quilez, “Dynamic Clouds”, 2005",
+            #[cfg(feature = "lit")]
+            Method::Lit => {
+                "K. Mukhina, A. Bezgodov, “The Method for Real-time Cloud Rendering”, 2015"
+            }
+            #[cfg(feature = "sprites")]
+            Method::Sprites => "N. Wang, “Let There Be Clouds!”, 2004",
+        }
+    }
 }
 
 /// How the clear sky is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum SkyModel {
     /// The pack's day gradient, with light scattered around the sun. See [`crate::clear_sky::gradient`].
     #[default]
@@ -89,6 +127,17 @@ impl SkyModel {
             SkyModel::Gradient => "gradient",
             #[cfg(feature = "perez")]
             SkyModel::Perez => "perez",
+        }
+    }
+
+    /// What it is, in a few words.
+    pub const fn title(self) -> &'static str {
+        match self {
+            SkyModel::Gradient => "The pack's day gradient, with light scattered around the sun",
+            #[cfg(feature = "perez")]
+            SkyModel::Perez => {
+                "Perez's distribution of light around sun and zenith, in Preetham's colours"
+            }
         }
     }
 }

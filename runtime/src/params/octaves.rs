@@ -3,8 +3,16 @@
 /// Octaves of the paper.
 pub const DEFAULT_OCTAVES: u32 = 4;
 
+/// The most octaves of [`OctaveParams::count`].
+pub const MAX_OCTAVES: u32 = 8;
+
+/// The least and the largest [`OctaveParams::formation_interval_s`]: a day.
+pub const FORMATION_INTERVAL_S: [f32; 2] = [0.1, 86_400.0];
+
 /// What [`crate::Method::Octaves`] alone knows.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
 pub struct OctaveParams {
     /// Octaves that are summed, 1..=8. The paper has four.
     pub count: u32,

@@ -1,11 +1,12 @@
 //! What [`crate::SkyModel::Perez`] alone knows.
 
-use std::fmt::Display;
-
 use super::range::ParamError;
 
 /// Types of the standard: CIE S 011/E:2003 (ISO 15469:2004), table 1.
 pub const STANDARD_SKIES: u8 = 15;
+
+/// The overcast ones among them: types 1 to this one.
+pub const LAST_OVERCAST: u8 = 5;
 
 /// Smallest and largest turbidity. Below 1.65 Preetham's first factor turns negative at the zenith, and up to 2 the zenith is
 /// very dark; 10 is a thick haze.
@@ -23,6 +24,8 @@ pub const CUSTOM: [[f32; 2]; 5] = [
 
 /// Where the numbers a to e of [`crate::SkyModel::Perez`]'s luminance come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum PerezShape {
     /// From the turbidity: A. J. Preetham, P. Shirley, B. Smits, SIGGRAPH 1999.
     #[default]
@@ -35,6 +38,8 @@ pub enum PerezShape {
 
 /// What [`crate::SkyModel::Perez`] alone knows.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
 pub struct PerezParams {
     /// How luminance is distributed.
     pub shape: PerezShape,
@@ -77,22 +82,16 @@ impl PerezShape {
             "perez.shape.d",
             "perez.shape.e",
         ];
-        let error = |key, found: String, low: &dyn Display, high: &dyn Display| ParamError {
-            key,
-            found,
-            expected: format!("a number from {low} to {high}"),
-        };
-        let last = STANDARD_SKIES;
         match self {
             PerezShape::Preetham => Ok(()),
-            PerezShape::Cie(number) if (1..=last).contains(&number) => Ok(()),
-            PerezShape::Cie(number) => Err(error("perez.shape.cie", number.to_string(), &1, &last)),
+            PerezShape::Cie(number) => {
+                ParamError::unless("perez.shape.cie", number, 1..=STANDARD_SKIES)
+            }
             PerezShape::Custom(numbers) => {
-                let stray = (0..5).find(|&i| !(CUSTOM[i][0]..=CUSTOM[i][1]).contains(&numbers[i]));
-                stray.map_or(Ok(()), |i| {
-                    let [low, high] = CUSTOM[i];
-                    Err(error(KEYS[i], numbers[i].to_string(), &low, &high))
-                })
+                for (i, [low, high]) in CUSTOM.into_iter().enumerate() {
+                    ParamError::unless(KEYS[i], numbers[i], low..=high)?;
+                }
+                Ok(())
             }
         }
     }

@@ -1,10 +1,11 @@
 //! What [`crate::Method::Sprites`] alone knows.
 
 use super::method::Method;
-use super::range::Ranged;
 
 /// What [`crate::Method::Sprites`] alone knows. See [`crate::sprites`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
 pub struct SpriteParams {
     /// The method whose dome is behind the sprites; [`Method::Sprites`] is a clear one with [`crate::SkyParams::upper_layer`] alone.
     pub behind: Method,
@@ -42,40 +43,3 @@ pub const LEAST_RING_M: f32 = welkin_pack::field::SECTION_SIDE_M;
 
 /// The most of every distance, in metres.
 pub const MOST_DISTANCE_M: f32 = 60_000.0;
-
-/// Every number that has a range.
-pub(super) fn numbers(sprites: &mut SpriteParams) -> Vec<Ranged<'_>> {
-    let usual = SpriteParams::default();
-    vec![
-        (
-            "sprites.behind_cover",
-            &mut sprites.behind_cover,
-            usual.behind_cover,
-            [0.0, 1.0],
-        ),
-        (
-            "sprites.distance_m",
-            &mut sprites.distance_m,
-            usual.distance_m,
-            [8000.0, MOST_DISTANCE_M],
-        ),
-        (
-            "sprites.ring_radius_m",
-            &mut sprites.ring_radius_m,
-            usual.ring_radius_m,
-            [0.0, MOST_DISTANCE_M],
-        ),
-        (
-            "sprites.billboards_beyond_m",
-            &mut sprites.billboards_beyond_m,
-            usual.billboards_beyond_m,
-            [2000.0, MOST_DISTANCE_M],
-        ),
-        (
-            "sprites.formation",
-            &mut sprites.formation,
-            usual.formation,
-            [0.0, 1.0],
-        ),
-    ]
-}

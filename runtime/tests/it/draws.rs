@@ -18,8 +18,7 @@ fn pack() -> &'static Pack {
     static PACK: OnceLock<Pack> = OnceLock::new();
     PACK.get_or_init(|| {
         let recipe = Recipe::parse("small", RECIPE).and_then(|r| r.resolve(None));
-        let goes_on = |_: welkin_baker::Progress<'_>| ControlFlow::Continue(());
-        welkin_baker::bake(&recipe.unwrap(), None, &goes_on).unwrap()
+        welkin_baker::bake(&recipe.unwrap(), None, &|_| ControlFlow::Continue(())).unwrap()
     })
 }
 

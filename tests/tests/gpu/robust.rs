@@ -1,10 +1,8 @@
 //! No parameter, camera, sun or time makes a pixel that is not a finite, positive amount of light.
 
 use welkin_pack::{LayerKind, Pack, mapping};
-use welkin_runtime::params::{
-    FbmParams, Lightning, LitLayer, LitParams, OctaveParams, PerezParams, PerezShape, SkyModel,
-    SpriteParams, WeatherParams,
-};
+use welkin_runtime::params::{Lightning, LitParams, PerezShape, SkyModel, WeatherParams};
+use welkin_runtime::params::{OTHERS, SETTINGS};
 use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::{gpu, pack};
 
@@ -179,78 +177,29 @@ fn straight_along_the_fall_of_rain() {
 
 /// Every number set to the same.
 fn all(method: Method, number: f32) -> SkyParams {
-    SkyParams {
-        cover: number,
-        height: number,
-        density: number,
-        sunset: number,
-        speed: number,
-        time: number,
-        upper_layer: number,
-        exposure: number,
+    let mut params = SkyParams {
         starburst: true,
-        dither: true,
         sky: SkyModel::Perez,
-        perez: PerezParams {
-            shape: PerezShape::Custom([number; 5]),
-            turbidity: number,
-        },
         method,
-        octaves: OctaveParams {
-            // More than eight would only take longer to be clamped to eight.
-            count: if number >= 1.0 { 4 } else { 0 },
-            sharpness: number,
-            formation_interval_s: number,
-            domes: [number; 3],
-        },
-        fbm: FbmParams {
-            sharpness: number,
-            lit: [number; 3],
-            shaded: [number; 3],
-        },
-        lit: LitParams {
-            radius_m: number,
-            flattening: number,
-            layers: [0, 1, 2, 0, 1, 2].map(|kind| layer(LayerKind::ALL[kind], number)),
-            k1: number,
-            k2: number,
-            m: number,
-            formation_interval_s: number,
-            moon: number,
-        },
-        sprites: SpriteParams {
-            behind: Method::Sprites,
-            behind_cover: number,
-            distance_m: number,
-            ring_radius_m: number,
-            billboards_beyond_m: number,
-            formation: number,
-        },
-        weather: WeatherParams {
-            rays: number,
-            rain: number,
-            lightning: Lightning {
-                strength: number,
-                start_s: number.into(),
-                place_m: [number; 2],
-            },
-        },
-        shadow_extent_m: number,
-        sun: true,
-        stars: true,
         even_stars: true,
-        flare: number,
-        skybox: number,
+        ..SkyParams::default()
+    };
+    for setting in SETTINGS {
+        for one in setting.numbers() {
+            *(one.place)(&mut params) = number;
+        }
     }
-}
-
-fn layer(kind: LayerKind, number: f32) -> LitLayer {
-    LitLayer {
-        kind,
-        share: number,
-        height: number,
-        velocity_m_s: [number; 2],
+    for one in OTHERS {
+        *(one.place)(&mut params) = number;
     }
+    params.perez.shape = PerezShape::Custom([number; 5]);
+    // More than eight would only take longer to be clamped to eight.
+    params.octaves.count = if number >= 1.0 { 4 } else { 0 };
+    params.weather.lightning.start_s = number.into();
+    for (layer, kind) in params.lit.layers.iter_mut().zip([0, 1, 2, 0, 1, 2]) {
+        layer.kind = LayerKind::ALL[kind];
+    }
+    params
 }
 
 /// Each number of the lit method at its ends and beyond them, all else as it is.
@@ -395,6 +344,17 @@ fn settings_out_of_range_are_told_by_their_names() {
         ),
     ];
     assert_eq!(SkyParams::default().check(), Ok(()));
+    let numbers = SETTINGS.iter().flat_map(|setting| setting.numbers());
+    for number in numbers.chain(OTHERS) {
+        let [low, high] = number.range;
+        let beyond = [low - 0.1 - low.abs() * 0.1, high * 1.1, f32::NAN];
+        for value in beyond.into_iter().chain([f32::INFINITY, f32::NEG_INFINITY]) {
+            let mut params = SkyParams::default();
+            *(number.place)(&mut params) = value;
+            assert_eq!(params.check().expect_err("out of range").key, number.field);
+            assert_eq!(params.clamped().check(), Ok(()), "{} {value}", number.field);
+        }
+    }
     for (key, set, values) in cases {
         let wild = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
         for value in values.into_iter().chain(wild) {
@@ -408,6 +368,16 @@ fn settings_out_of_range_are_told_by_their_names() {
             assert_eq!(params.clamped().check(), Ok(()), "{key} {value}");
         }
     }
+}
+
+/// As in every frame.
+#[test]
+fn settings_are_checked_and_clamped_without_an_allocation() {
+    let allocated = allocation_counter::measure(|| {
+        let params = std::hint::black_box(SkyParams::default());
+        assert!(params.clamped().check().is_ok());
+    });
+    assert_eq!(allocated.count_total, 0);
 }
 
 fn noon_elevation_rad() -> f32 {

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Args, ValueEnum};
-use welkin_runtime::Method;
+use welkin_runtime::params::{SETTINGS, whole_within};
+use welkin_runtime::{Method, SkyParams};
 
-use super::sprites::ring_radius_m;
 use super::values::size;
 use crate::bench::scene::SpriteScene;
 
@@ -16,7 +17,7 @@ pub struct BenchArgs {
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true, help = size_help())]
     pub size: Option<[u32; 2]>,
     /// Whose skies are timed [default: packed, or the protocol's]
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = methods())]
     pub method: Option<Methods>,
     /// Which field of clouds of --method sprites is timed [default: all of them]
     #[arg(long, value_enum)]
@@ -57,32 +58,51 @@ fn frames_help() -> String {
 }
 
 /// The methods of a benchmark.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Methods {
-    /// Roden and Parberry: one packed cloud texture
-    Packed,
-    /// Octaves of white noise, with the cost of each count
-    Octaves,
-    /// Octaves of smooth noise, with the cost of a sun that moves
-    Fbm,
-    /// Mukhina and Bezgodov: lit layers, with the cost of one and six, of shadows, rays and rain
-    Lit,
-    /// Wang: clouds in space, with and without the ring of impostors
-    Sprites,
-    /// Every method, in one table
+    /// One of them.
+    One(Method),
+    /// Every method, in one table.
     All,
+}
+
+/// What is timed of a method.
+const fn timed(method: Method) -> &'static str {
+    match method {
+        Method::Packed => Method::Packed.title(),
+        Method::Octaves => "Octaves of white noise, with the cost of each count",
+        Method::Fbm => "Octaves of smooth noise, with the cost of a sun that moves",
+        Method::Lit => {
+            "Mukhina and Bezgodov: lit layers, with the cost of one and six, of shadows, rays and rain"
+        }
+        Method::Sprites => "Wang: clouds in space, with and without the ring of impostors",
+    }
+}
+
+fn methods() -> ValueParser {
+    let value = |method: Method| PossibleValue::new(method.name()).help(timed(method));
+    let all = PossibleValue::new("all").help("Every method, in one table");
+    let values = Method::ALL.into_iter().map(value).chain([all]);
+    let named = |name: String| {
+        let one = Method::ALL.into_iter().find(|one| one.name() == name);
+        one.map_or(Methods::All, Methods::One)
+    };
+    ValueParser::new(PossibleValuesParser::new(values).map(named))
 }
 
 impl Methods {
     /// Those that are meant.
     pub fn list(self) -> Vec<Method> {
         match self {
-            Methods::Packed => vec![Method::Packed],
-            Methods::Octaves => vec![Method::Octaves],
-            Methods::Fbm => vec![Method::Fbm],
-            Methods::Lit => vec![Method::Lit],
-            Methods::Sprites => vec![Method::Sprites],
+            Methods::One(method) => vec![method],
             Methods::All => Method::ALL.to_vec(),
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Methods::One(method) => method.name(),
+            Methods::All => "all",
         }
     }
 }
@@ -104,10 +124,16 @@ impl Protocol {
 }
 
 fn frames(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(count) if (1..=MOST_FRAMES).contains(&count) => Ok(count),
-        _ => Err(format!("expected a whole number from 1 to {MOST_FRAMES}")),
+    whole_within(text, 1..=MOST_FRAMES)
+}
+
+/// As the setting takes it.
+fn ring_radius_m(text: &str) -> Result<f32, String> {
+    let mut params = SkyParams::default();
+    for ring in SETTINGS.iter().filter(|row| row.words.name == "ring") {
+        ring.read(&mut params, text)?;
     }
+    Ok(params.sprites.ring_radius_m)
 }
 
 impl BenchArgs {
@@ -118,7 +144,7 @@ impl BenchArgs {
 
     /// Methods without a protocol.
     pub fn methods(&self) -> Vec<Method> {
-        self.method.unwrap_or(Methods::Packed).list()
+        self.method.map_or(vec![Method::Packed], Methods::list)
     }
 
     /// Frames that are timed.
@@ -132,7 +158,7 @@ impl BenchArgs {
     /// # Errors
     /// Which option it is, and what the protocol says.
     pub fn refuse_others(&self) -> Result<(), String> {
-        if self.scene.is_some() && self.method != Some(Methods::Sprites) {
+        if self.scene.is_some() && self.method != Some(Methods::One(Method::Sprites)) {
             return Err(
                 "--scene belongs to --method sprites; leave it out or say --method sprites"
                     .to_string(),
@@ -148,12 +174,10 @@ impl BenchArgs {
             ));
         }
         match self.method {
-            None | Some(Methods::Lit) => Ok(()),
+            None | Some(Methods::One(Method::Lit)) => Ok(()),
             Some(other) => Err(format!(
                 "--method {} does not go with --protocol mukhina, which times lit; leave out --method, or the protocol",
-                other
-                    .to_possible_value()
-                    .map_or_else(String::new, |v| v.get_name().to_string())
+                other.name()
             )),
         }
     }

@@ -6,11 +6,10 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use clap::{Args, ValueEnum};
+use welkin_runtime::params::{whole_within, within};
 use welkin_viewer::export::sequence::{FPS, MOST_FRAMES, Sequence, Shard};
 use welkin_viewer::export::{cubemap, equirect};
 use welkin_viewer::save::Format;
-
-use super::values::within;
 
 /// Frames a second without --fps.
 const USUAL_FPS: f64 = 30.0;
@@ -123,10 +122,7 @@ fn side(text: &str) -> Result<u32, String> {
 }
 
 fn frames(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(count) if (1..=MOST_FRAMES).contains(&count) => Ok(count),
-        _ => Err(format!("expected a whole number from 1 to {MOST_FRAMES}")),
-    }
+    whole_within(text, 1..=MOST_FRAMES)
 }
 
 fn fps(text: &str) -> Result<f64, String> {

@@ -1,6 +1,4 @@
-//! What the options take: the settings' own values, and the size of a picture.
-
-pub use welkin_controls::values::*;
+//! What several commands take: the size of a picture.
 
 /// Sides above this are no texture on any GPU; what the GPU at hand takes is checked when it is known.
 const MAX_SIDE: u32 = 32_768;

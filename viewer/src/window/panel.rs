@@ -89,22 +89,11 @@ fn section(ui: &mut Ui, title: &str, is_open: bool, add: impl FnOnce(&mut Ui)) {
         .show_unindented(ui, add);
 }
 
-/// The published system that each method is.
-const fn paper(method: Method) -> &'static str {
-    match method {
-        Method::Packed => "Roden and Parberry, 2005: one packed cloud texture",
-        Method::Octaves => "Guthikonda and others, USC: octaves of white noise that form anew",
-        Method::Fbm => "Quilez, 2005: octaves of smooth noise that drift, lit by a short march",
-        Method::Lit => "Mukhina and Bezgodov, 2015: layers lit by sun and moon",
-        Method::Sprites => "Wang, Flight Simulator 2004: clouds in space, made of sprites",
-    }
-}
-
 fn methods(ui: &mut Ui, state: &mut State) {
     ui.horizontal(|ui| {
         for method in Method::ALL {
             ui.selectable_value(&mut state.settings.params.method, method, method.name())
-                .on_hover_text(paper(method));
+                .on_hover_text(format!("{}. {}", method.title(), method.paper()));
         }
     });
     let is_missing =

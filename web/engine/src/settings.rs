@@ -3,15 +3,19 @@
 use wasm_bindgen::prelude::*;
 use welkin_controls::{Blend, KEYS, Key, Keys, PRESETS, Pilot, Preset, Settings};
 use welkin_pack::LayerKind;
+use welkin_runtime::Method;
 use welkin_runtime::params::MAX_LAYERS;
 
 use crate::engine::{Engine, error};
 
-/// Every setting with its words, its range and the methods that look at it, the presets, and what layers may be, as JSON.
+/// Every setting with its words, its range and the methods that look at it, the methods, the presets, and what layers may be, as JSON.
 #[wasm_bindgen]
 pub fn controls() -> String {
+    let method =
+        |m: Method| serde_json::json!({ "name": m.name(), "title": m.title(), "paper": m.paper() });
     serde_json::json!({
         "keys": KEYS,
+        "methods": Method::ALL.map(method),
         "presets": PRESETS,
         "layers": { "kinds": LayerKind::ALL.map(LayerKind::name), "most": MAX_LAYERS },
     })

@@ -3,7 +3,7 @@
 use clap::ArgMatches;
 
 use super::ExportArgs;
-use crate::cli::is_given;
+use crate::cli::given::is_given;
 
 impl ExportArgs {
     /// An option that a map or a sequence would not look at, or that cannot hold there, is a mistake, and told.

@@ -1,4 +1,4 @@
-use welkin_controls::{Input, KEYS, Key, Settings};
+use welkin_controls::{Group, Input, KEYS, Key, Settings};
 use welkin_runtime::params::{FbmParams, OctaveParams, SkyModel};
 
 use super::*;
@@ -76,9 +76,9 @@ fn oktas_are_eighths_and_stand_in_place_of_cover() {
         "{error}"
     );
     for (text, oktas) in [("0", 0.0), ("2.5", 2.5), ("8", 8.0)] {
-        assert_eq!(render_args(&["--oktas", text]).sky.oktas, Some(oktas));
+        assert_eq!(render_args(&["--oktas", text]).oktas, Some(oktas));
     }
-    assert_eq!(render_args(&[]).sky.oktas, None);
+    assert_eq!(render_args(&[]).oktas, None);
 }
 
 #[test]
@@ -237,17 +237,23 @@ fn options_of_another_method_are_refused_and_say_whose_they_are() {
 
 /// An option of one method that is missing among the owners would be taken, and ignored, by the others.
 #[test]
-fn every_option_of_one_method_has_its_owners() {
-    let command = CloudArgs::augment_args(clap::Command::new("clouds"));
-    let command = SpriteArgs::augment_args(LitArgs::augment_args(command));
-    let options: Vec<&str> = command
-        .get_arguments()
-        .map(|a| a.get_id().as_str())
-        .collect();
-    assert_eq!(
-        options,
-        owners().map(|(option, _)| option).collect::<Vec<_>>()
-    );
+fn every_option_of_one_method_is_refused_by_the_others() {
+    for key in KEYS.iter().filter(|key| key.group != Group::Air) {
+        let Some(option) = key.option().filter(|_| key.input != Input::Switch) else {
+            continue;
+        };
+        let sharing = KEYS.iter().filter(|other| other.option() == Some(option));
+        let owners: Vec<Method> = sharing.flat_map(|key| key.methods).copied().collect();
+        for method in Method::ALL.iter().filter(|method| !owners.contains(method)) {
+            let option = format!("--{option}");
+            let text = another_text(key);
+            let error = error_of(&["--method", method.name(), &option, &text]);
+            assert!(
+                error.contains(&format!("{option} belongs to --method")),
+                "{error}"
+            );
+        }
+    }
 }
 
 #[test]
@@ -446,7 +452,7 @@ fn another_text(key: &Key) -> String {
         Input::Slider { whole: true, .. } => "3".to_string(),
         Input::Slider { low, high, .. } => ((low + (high - low) * 0.625) as f32).to_string(),
         Input::Switch => (key.text(&Settings::default()) == "false").to_string(),
-        Input::Choice { choices } => choices[choices.len() - 1].to_string(),
+        Input::Choice { choices, .. } => choices[choices.len() - 1].to_string(),
         Input::Numbers { optional: true, .. } => "-0.5,-0.5,9,-2.5,0.5".to_string(),
         Input::Numbers { .. } | Input::Colour => "0.25,0.5,0.75".to_string(),
         Input::Layers => "cumulus:0.5:0.8:-20:5,cirrus:0.25:4".to_string(),
@@ -472,10 +478,11 @@ fn settings_become_options_that_give_the_same_picture() {
             let options = settings.options();
             let words: Vec<&str> = options.iter().map(String::as_str).collect();
             let args = render_args(&words);
+            let given = args.settings.settings;
             let shown = Settings {
                 params: args.params(),
-                view: args.camera.viewpoint(),
-                at_s: args.at,
+                view: given.view,
+                at_s: given.at_s,
                 ..settings
             };
             let frame = Settings {

@@ -76,7 +76,7 @@ fn value(ui: &mut Ui, key: &Key, settings: &mut Settings) {
                 put(settings, key, &is_on.to_string());
             }
         }
-        Input::Choice { choices } => choice(ui, key, settings, choices),
+        Input::Choice { choices, .. } => choice(ui, key, settings, choices),
         Input::Numbers {
             ranges, optional, ..
         } => numbers(ui, key, settings, ranges, optional),

@@ -1,7 +1,8 @@
 use welkin_pack::LayerKind;
 use welkin_runtime::SkyParams;
+use welkin_runtime::params::MAX_LAYERS;
+use welkin_runtime::params::{LitLayer, LitParams};
 
-use super::*;
 use crate::cli::{Cli, Command};
 
 fn read(args: &[&str]) -> Result<SkyParams, String> {
@@ -188,7 +189,7 @@ fn dome_and_light_reach_the_sky() {
 fn shadows_are_drawn_where_they_are_asked_for() {
     let extent = |args: &[&str]| read(args).unwrap().shadow_extent_m;
     assert_eq!(extent(&[]), 0.0);
-    assert_eq!(extent(&["--shadow", "s.png"]), SHADOW_EXTENT_M);
+    assert_eq!(extent(&["--shadow", "s.png"]), 8000.0);
     for (text, metres) in [("1", 1.0), ("2500.5", 2500.5), ("1000000", 1e6)] {
         assert_eq!(
             extent(&["--shadow", "s.PNG", "--shadow-extent", text]),

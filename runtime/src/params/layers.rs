@@ -1,23 +1,20 @@
 //! Layers of clouds as text: between commas.
 
 use welkin_pack::LayerKind;
-use welkin_runtime::params::MAX_LAYERS;
-use welkin_runtime::params::{LitLayer, LitParams};
 
-use crate::values::of_sky;
+use super::lit::{LAYER_HEIGHT, LitLayer, LitParams, MAX_LAYERS, SHARE, VELOCITY_M_S};
+use super::range::within;
 
 /// How it is written.
 pub const LAYERS_FORM: &str = "KIND[:SHARE[:HEIGHT[:EAST:SOUTH]]],...";
 
 /// What it means.
 pub fn layers_help() -> String {
-    let usual = layers_text(&LitParams::default().layers);
     format!(
         "1 to {MAX_LAYERS} layers between commas; lower ones hide higher ones. KIND is one of {}; SHARE its part in the \
          cover beside the other layers, 0 to 1, or else 1; HEIGHT counts in heights of the dome, 0.1 to 20, or else is the \
-         kind's; EAST and SOUTH say where it goes at speed 1, in metres a second, -200 to 200, or else as its kind does [default: {}]",
-        kinds(),
-        usual
+         kind's; EAST and SOUTH say where it goes at speed 1, in metres a second, -200 to 200, or else as its kind does",
+        kinds()
     )
 }
 
@@ -76,34 +73,26 @@ fn layer(text: &str) -> Result<LitLayer, String> {
     if east.is_some() && south.is_none() {
         return Err(form("has a velocity to the east and none to the south"));
     }
-    let told = |number: &str, key: &str, value: Result<f32, String>| {
-        value.map_err(|expected| format!("the {key} of {name} is \"{number}\", {expected}"))
-    };
     let mut layer = LitLayer::of(kind, 1.0);
+    let read = |key: &str, text: &str, [low, high]: [f32; 2], unit: &str| {
+        within(text, low..=high, unit)
+            .map_err(|expected| format!("the {key} of {name} is \"{text}\", {expected}"))
+    };
     if let Some(share) = share {
-        layer.share = told(
-            share,
-            "share",
-            of_sky(share, |sky, v| sky.lit.layers[0].share = v, ""),
-        )?;
+        layer.share = read("share", share, SHARE, "")?;
     }
     if let Some(height) = height {
-        let value = of_sky(
-            height,
-            |sky, v| sky.lit.layers[0].height = v,
-            " heights of the dome",
-        );
-        layer.height = told(height, "height", value)?;
+        layer.height = read("height", height, LAYER_HEIGHT, " heights of the dome")?;
     }
     layer.velocity_m_s = velocity_m_s(&layer);
-    const UNIT: &str = " metres a second";
-    if let Some(east) = east {
-        let value = of_sky(east, |sky, v| sky.lit.layers[0].velocity_m_s[0] = v, UNIT);
-        layer.velocity_m_s[0] = told(east, "velocity to the east", value)?;
-    }
-    if let Some(south) = south {
-        let value = of_sky(south, |sky, v| sky.lit.layers[0].velocity_m_s[1] = v, UNIT);
-        layer.velocity_m_s[1] = told(south, "velocity to the south", value)?;
+    let [to_east, to_south] = &mut layer.velocity_m_s;
+    for (text, value, key) in [
+        (east, to_east, "velocity to the east"),
+        (south, to_south, "velocity to the south"),
+    ] {
+        if let Some(text) = text {
+            *value = read(key, text, VELOCITY_M_S, " metres a second")?;
+        }
     }
     Ok(layer)
 }

@@ -1,0 +1,148 @@
+//! What the sky shall look like.
+
+use super::fbm::FbmParams;
+use super::lit::LitParams;
+use super::method::{Method, SkyModel};
+use super::octaves::OctaveParams;
+use super::perez::PerezParams;
+use super::sprites::SpriteParams;
+use super::weather::WeatherParams;
+
+/// What the sky shall look like. The first six are the paper's, 0..1 each.
+///
+/// Values out of range are clamped when a frame is prepared, and what is not a number becomes the
+/// default, so that a slider or a script can never make a frame of NaN. [`SkyParams::check`] tells instead.
+///
+/// T. Roden, I. Parberry, "Clouds and Stars: Efficient Real-Time Procedural Sky Rendering Using 3D
+/// Hardware", ACE 2005, section 2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
+pub struct SkyParams {
+    /// Amount of cloud: 0 clear, 1 overcast.
+    pub cover: f32,
+    /// Height of the clouds over the viewer: 0 low (large on the sky), 1 high (small).
+    pub height: f32,
+    /// Density of the clouds: 0 bumpy and bright, 1 smooth with dark cores.
+    pub density: f32,
+    /// Strength of the red gradient over the clouds on the sun's side.
+    pub sunset: f32,
+    /// Wind speed: 0 still, 1 fast.
+    pub speed: f32,
+    /// Time of day: 0 midnight, 0.25 sunrise, 0.5 noon, 0.75 sunset, 1 midnight again.
+    pub time: f32,
+    /// Amount of the thin upper layer of [`Method::Packed`], 0 (off) to 1.
+    pub upper_layer: f32,
+    /// Factor on the radiance before the tone curve, 0..=64. A float target gets radiance without it.
+    pub exposure: f32,
+    /// Whether targets of few bits are dithered by half a step.
+    pub dither: bool,
+    /// How the clear sky is computed.
+    pub sky: SkyModel,
+    /// Of [`SkyModel::Perez`].
+    pub perez: PerezParams,
+    /// Which system makes the clouds.
+    pub method: Method,
+    /// Of [`Method::Octaves`].
+    pub octaves: OctaveParams,
+    /// Of [`Method::Fbm`].
+    pub fbm: FbmParams,
+    /// Of [`Method::Lit`].
+    pub lit: LitParams,
+    /// Of [`Method::Sprites`].
+    pub sprites: SpriteParams,
+    /// Rays, rain and lightning.
+    pub weather: WeatherParams,
+    /// Side of the square around the viewer whose cloud shadows [`crate::Sky::shadow`] gives, in metres, 0..=1000000; 0 for none.
+    /// Of [`Method::Lit`] alone.
+    pub shadow_extent_m: f32,
+    /// Whether the sun's disc and glow are drawn.
+    pub sun: bool,
+    /// Whether stars and galaxy are drawn.
+    pub stars: bool,
+    /// Whether a star's light is spread over the solid angle of its pixels, as an environment map wants it: the sum of radiance over solid
+    /// angle is then the same wherever the star is on a wide picture. Otherwise the sum over pixels is, so that stars look alike on a screen.
+    pub even_stars: bool,
+    /// Strength of the lens flare, 0 (off) to 1.
+    pub flare: f32,
+    /// Whether the flare's picture of the sun is a starburst instead of a disc.
+    pub starburst: bool,
+    /// How far the pack's skybox, if it has one, takes the place of the computed sky, 0 to 1.
+    pub skybox: f32,
+}
+
+/// The largest [`SkyParams::exposure`]: six stops over the default.
+pub const MAX_EXPOSURE: f32 = 64.0;
+
+impl Default for SkyParams {
+    /// A fair day at noon.
+    fn default() -> SkyParams {
+        SkyParams {
+            cover: 0.6,
+            height: 0.7,
+            density: 0.2,
+            sunset: 0.0,
+            speed: 0.1,
+            time: 0.5,
+            upper_layer: 0.0,
+            exposure: 1.0,
+            dither: true,
+            sky: SkyModel::Gradient,
+            perez: PerezParams::default(),
+            method: Method::Packed,
+            octaves: OctaveParams::default(),
+            fbm: FbmParams::default(),
+            lit: LitParams::default(),
+            sprites: SpriteParams::default(),
+            weather: WeatherParams::default(),
+            shadow_extent_m: 0.0,
+            sun: true,
+            stars: true,
+            even_stars: false,
+            flare: 1.0,
+            starburst: false,
+            skybox: 1.0,
+        }
+    }
+}
+
+impl SkyParams {
+    /// The parameters in the caption of the paper's figure 2.
+    pub fn figure_2() -> SkyParams {
+        SkyParams {
+            cover: 0.69,
+            height: 1.0,
+            density: 0.0,
+            sunset: 0.72,
+            speed: 0.1,
+            time: 0.35,
+            ..Default::default()
+        }
+    }
+
+    /// The parameters in the caption of the paper's figure 4.
+    pub fn figure_4() -> SkyParams {
+        SkyParams {
+            cover: 0.57,
+            height: 0.52,
+            density: 0.84,
+            sunset: 0.43,
+            speed: 0.0,
+            time: 0.72,
+            ..Default::default()
+        }
+    }
+
+    /// The parameters of the dome: those of the method behind the sprites, or these themselves.
+    pub(crate) fn dome(self) -> SkyParams {
+        #[cfg(feature = "sprites")]
+        if self.method == Method::Sprites {
+            return SkyParams {
+                method: self.sprites.behind,
+                cover: self.sprites.behind_cover,
+                ..self
+            };
+        }
+        self
+    }
+}
