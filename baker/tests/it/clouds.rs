@@ -5,7 +5,7 @@ use welkin_pack::{Image, Role};
 use crate::common;
 
 fn clouds(text: &str, seed: u64) -> Image {
-    let (_, all) = common::bake(text, Some(seed));
+    let (_, all) = common::bake_for(&[Role::Clouds], text, Some(seed));
     common::image(&all, Role::Clouds).clone()
 }
 

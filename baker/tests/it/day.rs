@@ -5,8 +5,7 @@ use welkin_pack::{Image, Role};
 use crate::common;
 
 fn bake(text: &str, role: Role) -> Image {
-    // Small clouds, since they are not looked at here.
-    let (_, all) = common::bake(&format!("[clouds]\nsize = 64\n{text}"), None);
+    let (_, all) = common::bake_for(&[role], text, None);
     common::image(&all, role).clone()
 }
 

@@ -2,12 +2,12 @@
 
 use std::sync::OnceLock;
 
-use crate::common::{bake, images};
+use crate::common::{bake_for, images};
 use welkin_pack::{Image, LayerKind, LayerTexel, Role};
 
-/// The layers of a recipe, with small clouds, since those are not looked at here.
+/// The layers of a recipe.
 fn layers(text: &str, seed: u64) -> Vec<Image> {
-    let (_, sources) = bake(&format!("[clouds]\nsize = 64\n{text}"), Some(seed));
+    let (_, sources) = bake_for(&[Role::Layers], text, Some(seed));
     images(&sources, Role::Layers).to_vec()
 }
 

@@ -2,13 +2,13 @@
 
 use std::f32::consts::TAU;
 
-use crate::common::{bake, image, images};
+use crate::common::{bake_for, image, images};
 use welkin_pack::mapping::FBM_STEPS_A_TILE;
 use welkin_pack::{FbmTexel, FlareCell, Image, Role, Source};
 
-/// Small clouds, since they are not looked at here.
+/// What the other methods draw from.
 fn small(text: &str, seed: u64) -> Vec<Source> {
-    bake(&format!("[clouds]\nsize = 64\n{text}"), Some(seed)).1
+    bake_for(&[Role::Octaves, Role::Fbm, Role::Flares], text, Some(seed)).1
 }
 
 /// Pearson's correlation of two lists.

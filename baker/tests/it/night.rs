@@ -11,8 +11,7 @@ use welkin_pack::{Image, Role, mapping};
 use crate::common;
 
 fn bake(text: &str, seed: u64, role: Role) -> (Resolved, Image) {
-    // Small clouds, since they are not looked at here.
-    let (resolved, all) = common::bake(&format!("[clouds]\nsize = 64\n{text}"), Some(seed));
+    let (resolved, all) = common::bake_for(&[role], text, Some(seed));
     let image = common::image(&all, role).clone();
     (resolved, image)
 }

@@ -1,7 +1,5 @@
-//! Whole-path tests without a GPU: packs, the closed forms of the sky, the order of the runtime's files.
+//! Whole-path tests that want no GPU and little time: golden packs, the closed forms of the sky, the order of the runtime's files.
 
-mod default_pack;
-mod determinism;
 mod floors;
 mod golden;
 mod perez;

@@ -17,6 +17,31 @@ pub fn bake(text: &str, seed: Option<u64>) -> (Resolved, Vec<Source>) {
     (resolved, sources)
 }
 
+/// Tables of a recipe with which their textures are as small as they may be, and no clouds stand in space.
+const SMALL: [(&str, &str); 9] = [
+    ("clouds", "size = 64"),
+    ("stars", "size = 64\ncount = 20"),
+    ("galaxy", "size = 32"),
+    ("sky", "width = 16\nheight = 16"),
+    ("fbm", "size = 64\ncells = 16"),
+    ("flares", "size = 64"),
+    ("layers", "size = 64"),
+    ("sprites", "size = 128"),
+    ("field", "sections = 0"),
+];
+
+/// The same where these roles alone are looked at: the others are small. No channel depends on another's size.
+pub fn bake_for(roles: &[Role], text: &str, seed: Option<u64>) -> (Resolved, Vec<Source>) {
+    let asked = |table: &str| {
+        roles.iter().any(|role| role.name() == table) || text.contains(&format!("[{table}]"))
+    };
+    let others = SMALL.iter().filter(|(table, _)| !asked(table));
+    let small: String = others
+        .map(|(table, lines)| format!("[{table}]\n{lines}\n"))
+        .collect();
+    bake(&format!("{small}{text}"), seed)
+}
+
 /// The images of a role, one a layer.
 pub fn images(sources: &[Source], role: Role) -> &[Image] {
     &sources.iter().find(|s| s.role == role).unwrap().images
