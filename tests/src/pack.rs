@@ -159,8 +159,8 @@ fn build(noon_elevation_rad: Option<f32>, sources: Vec<Source>) -> Pack {
         recipe: String::new(),
         inputs: Vec::new(),
         noon_elevation_rad: noon_elevation_rad.unwrap_or(usual.noon_elevation_rad),
-        noise: resolved().clouds.noise.entry(),
-        detail: resolved().clouds.detail.entry(),
+        noise: resolved().clouds.noise,
+        detail: resolved().clouds.detail,
     };
     Pack::build(info, sources).expect("the changed pack is sound")
 }
