@@ -212,7 +212,10 @@ fn a_sequence_and_its_parts() {
     let args = ["--frames", "48", "--at", "10"];
     let of = |more: &[&str]| {
         let render = read("sky", &[&args[..], more].concat()).unwrap();
-        render.export.sequence(render.settings.settings.at_s).unwrap()
+        render
+            .export
+            .sequence(render.settings.settings.at_s)
+            .unwrap()
     };
     let usual = Sequence {
         frames: 48,
