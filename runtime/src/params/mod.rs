@@ -8,6 +8,7 @@ mod method;
 mod octaves;
 mod perez;
 mod range;
+#[macro_use]
 pub mod row;
 mod setting;
 mod sky;

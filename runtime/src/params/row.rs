@@ -1,14 +1,16 @@
 //! Rows of a table of settings: what most of them have in common.
 
 use super::method::Method;
-use super::setting::Words;
-use super::setting::{Command, CommandOption, DefaultSaid, Group, Input, Number, Setting, Slot};
+use super::setting::{
+    Command, CommandOption, DefaultSaid, Group, Input, Number, Setting, Slot, Words,
+};
 
-/// A table: in each group a name, a label, a sentence and what is made of the functions of this module, for each setting.
+/// A table: in each group a name, a label, a sentence and what is made of the functions of this module, for each setting. Wants
+/// `Group` in scope.
 #[macro_export]
 macro_rules! settings {
     ($($group:ident { $($name:literal $label:literal $help:literal = $row:expr;)* })*) => {
-        &[$($($row.named($crate::params::Group::$group, $name, $label, $help),)*)*]
+        &[$($($row.named(Group::$group, $name, $label, $help),)*)*]
     };
 }
 

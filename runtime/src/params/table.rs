@@ -6,10 +6,10 @@ use super::method::Method;
 use super::octaves::{FORMATION_INTERVAL_S, MAX_OCTAVES};
 use super::perez::{CUSTOM, TURBIDITY};
 use super::row::{UNIT, count, number, switch, text, three};
-use super::setting::{DefaultSaid, Input, Number, Setting};
+use super::setting::{DefaultSaid, Group, Input, Number, Setting};
 use super::sky::{MAX_EXPOSURE, SkyParams};
 use super::sprites::MOST_DISTANCE_M;
-use super::text as texts;
+use super::text;
 use super::weather::{FLASH_PLACE_M, FLASH_STRENGTH};
 
 /// Those without a map: what they draw has the thin upper layer.
@@ -59,7 +59,7 @@ macro_rules! three {
 }
 
 /// The six of Roden and Parberry, by their names, then what else there is. A setting stands before those that it would undo.
-pub const SETTINGS: &[Setting] = crate::settings! {
+pub const SETTINGS: &[Setting] = settings! {
     Sky {
         "cover" "Cover" "Cloud cover: 0 none, 1 all"
             = plain!(cover, UNIT).value("C").range_said().blends();
@@ -76,7 +76,7 @@ pub const SETTINGS: &[Setting] = crate::settings! {
     }
     Clouds {
         "method" "Method" "How the clouds are made"
-            = text(choice(&texts::METHODS), texts::method, texts::set_method);
+            = text(choice(&text::METHODS), text::method, text::set_method);
         "upper" "Upper layer" "Amount of a thin upper layer, 0 (none) to 1"
             = plain!(upper_layer, UNIT).of(PLAIN).value("U").range_said().blends();
         "octaves" "Octaves" "How many octaves are summed"
@@ -91,7 +91,7 @@ pub const SETTINGS: &[Setting] = crate::settings! {
             = three!(octaves.domes, DOMES).of(OCTAVES).value("LOW,MIDDLE,HIGH").default_said(INLINE)
                 .command_help("Cover of each dome as a share of --cover, 0 to 1; 0 leaves it out");
         "palette" "Palette" "Colours of the clouds"
-            = text(choice(&texts::PALETTE_NAMES), texts::palette, texts::set_palette).of(FBM);
+            = text(choice(&text::PALETTE_NAMES), text::palette, text::set_palette).of(FBM);
         "fbm-sharpness" "Sharpness" "How sharply clouds end"
             = plain!(fbm.sharpness, UNIT).of(FBM).shared("sharpness").value("S").blends()
                 .default_said(DefaultSaid::Words("{}, 0.25 with the stormy palette"));
@@ -100,7 +100,7 @@ pub const SETTINGS: &[Setting] = crate::settings! {
         "shaded" "Shaded" "Reflectance where clouds shade themselves, linear, each 0 to 1"
             = three!(fbm.shaded, Input::Colour).of(FBM).value("R,G,B").range_said().default_said(PALETTE_S).blends();
         "layers" "Layers" "Layers of clouds, KIND:SHARE:HEIGHT between commas"
-            = text(Input::Layers, texts::layers, texts::set_layers).holding(&LAYERS)
+            = text(Input::Layers, text::layers, text::set_layers).holding(&LAYERS)
                 .of(LIT).value(LAYERS_FORM).default_said(INLINE);
         "dome-radius" "Dome radius" "Radius of the dome's rim in metres"
             = plain!(lit.radius_m, [1e3, 1e6]).unit("metres", " metres").logarithmic().of(LIT).value("M");
@@ -119,13 +119,13 @@ pub const SETTINGS: &[Setting] = crate::settings! {
             = plain!(lit.formation_interval_s, [1.0, 86_400.0]).unit("seconds", " seconds").logarithmic()
                 .of(LIT).shared("formation-interval").value("SECONDS");
         "behind" "Behind" "Method of the dome behind the sprites; sprites is a clear one, with the thin upper layer alone"
-            = text(choice(&texts::METHODS), texts::behind, texts::set_behind).of(SPRITES);
+            = text(choice(&text::METHODS), text::behind, text::set_behind).of(SPRITES);
         "behind-cover" "Cover behind" "Cover of that dome"
             = plain!(sprites.behind_cover, UNIT).of(SPRITES).value("C");
         "sight" "Sight" "How far clouds are seen, in metres"
             = plain!(sprites.distance_m, [8000.0, MOST_DISTANCE_M]).unit("metres", " metres").of(SPRITES).value("M");
         "ring" "Ring" "Radius of the ring of impostors in metres, 4000 to 60000: clouds beyond it are pictures; 0 for no ring"
-            = text(number(RING).words.input, texts::ring, texts::set_ring).unit("metres", "").holding(&[RING])
+            = text(number(RING).words.input, text::ring, text::set_ring).unit("metres", "").holding(&[RING])
                 .of(SPRITES).value("M").range_said();
         "billboards" "Billboards" "Distance beyond which a cloud is one billboard, in metres"
             = plain!(sprites.billboards_beyond_m, [2000.0, MOST_DISTANCE_M]).unit("metres", " metres").of(SPRITES).value("M");
@@ -134,15 +134,15 @@ pub const SETTINGS: &[Setting] = crate::settings! {
     }
     Air {
         "sky" "Sky model" "How the clear sky is computed"
-            = text(choice(&texts::MODELS), texts::model, texts::set_model);
+            = text(choice(&text::MODELS), text::model, text::set_model);
         "turbidity" "Turbidity" "Haze in the air, 1.7 (clear) to 10 (thick)"
-            = plain!(perez.turbidity, TURBIDITY).when(texts::has_haze).value("T").range_said();
+            = plain!(perez.turbidity, TURBIDITY).when(text::has_haze).value("T").range_said();
         "cie" "Standard sky" "Luminance of a standard sky of ISO 15469, 1 (overcast) to 12 (clear) to 15"
-            = text(Input::Choice { choices: &texts::CIE, meanings: &[] }, texts::cie, texts::set_cie)
-                .optional(texts::clear_cie).when(texts::is_perez).value("N").default_said(BY_TURBIDITY);
+            = text(Input::Choice { choices: &text::CIE, meanings: &[] }, text::cie, text::set_cie)
+                .optional(text::clear_cie).when(text::is_perez).value("N").default_said(BY_TURBIDITY);
         "perez" "Perez" "Luminance by five numbers of one's own"
-            = text(PEREZ, texts::perez, texts::set_perez)
-                .optional(texts::clear_perez).when(texts::is_perez).value("A,B,C,D,E").default_said(BY_TURBIDITY);
+            = text(PEREZ, text::perez, text::set_perez)
+                .optional(text::clear_perez).when(text::is_perez).value("A,B,C,D,E").default_said(BY_TURBIDITY);
     }
     Light {
         "sun" "Sun" "The sun's disc and glow"
@@ -152,7 +152,7 @@ pub const SETTINGS: &[Setting] = crate::settings! {
         "flare" "Lens flare" "Strength of the lens flare, 0 (off) to 1"
             = plain!(flare, UNIT).value("F").range_said();
         "starburst" "Starburst" "Whether the flare's picture of the sun is a starburst instead of a disc"
-            = switch("starburst", |params: &mut SkyParams| &mut params.starburst).when(texts::has_flare)
+            = switch("starburst", |params: &mut SkyParams| &mut params.starburst).when(text::has_flare)
                 .command_help("Draw the flare's picture of the sun as a starburst, not as a disc");
         "skybox" "Skybox" "How far the pack's skybox takes the place of the computed sky"
             = plain!(skybox, UNIT).value("S").default_said(DefaultSaid::Words("{}, where the pack has one"));

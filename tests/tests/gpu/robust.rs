@@ -3,6 +3,7 @@
 use welkin_pack::{LayerKind, Pack, mapping};
 use welkin_runtime::params::{Lightning, LitParams, PerezShape, SkyModel, WeatherParams};
 use welkin_runtime::params::{OTHERS, SETTINGS};
+use welkin_runtime::params::{Lightning, LitParams, PerezShape, SkyModel};
 use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::{gpu, pack};
 
@@ -126,14 +127,12 @@ fn corner(draw: &mut Draw, method: Method, sky: SkyModel) -> (SkyParams, Camera,
         skybox: draw.of(&[0.0, 1.0]),
         ..SkyParams::default()
     };
-    params.weather = WeatherParams {
-        rays: draw.of(&[0.0, 1.0]),
-        rain: draw.of(&[0.0, 0.1, 0.5, 1.0]),
-        lightning: Lightning {
-            strength: draw.of(&[0.0, 1.0]),
-            start_s: 10.0,
-            place_m: draw.of(&[[0.0, 0.0], [2.0, -2.5], [1e6, 1e6]]),
-        },
+    params.weather.rays = draw.of(&[0.0, 1.0]);
+    params.weather.rain = draw.of(&[0.0, 0.1, 0.5, 1.0]);
+    params.weather.lightning = Lightning {
+        strength: draw.of(&[0.0, 1.0]),
+        start_s: 10.0,
+        place_m: draw.of(&[[0.0, 0.0], [2.0, -2.5], [1e6, 1e6]]),
     };
     (params, camera, draw.of(&[0.0, 10.01, 3.3]))
 }

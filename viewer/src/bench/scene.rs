@@ -6,9 +6,7 @@
 use clap::ValueEnum;
 use welkin_pack::LayerKind;
 use welkin_runtime::internals::sprites::ring;
-use welkin_runtime::params::{
-    LitLayer, LitParams, OctaveParams, SkyModel, SpriteParams, WeatherParams,
-};
+use welkin_runtime::params::{LitLayer, LitParams, OctaveParams, SkyModel, SpriteParams, WeatherParams};
 use welkin_runtime::params::{MAX_LAYERS, MAX_OCTAVES, MOST_DISTANCE_M};
 use welkin_runtime::{Camera, Method, SkyParams};
 

@@ -69,13 +69,13 @@ pub enum Methods {
 /// What is timed of a method.
 const fn timed(method: Method) -> &'static str {
     match method {
-        Method::Packed => Method::Packed.title(),
         Method::Octaves => "Octaves of white noise, with the cost of each count",
         Method::Fbm => "Octaves of smooth noise, with the cost of a sun that moves",
         Method::Lit => {
             "Mukhina and Bezgodov: lit layers, with the cost of one and six, of shadows, rays and rain"
         }
         Method::Sprites => "Wang: clouds in space, with and without the ring of impostors",
+        _ => method.title(),
     }
 }
 

@@ -195,7 +195,7 @@ fn parser(keys: &[&'static Key]) -> ValueParser {
     ValueParser::new(move |text: &str| -> Result<String, String> {
         let read = |key: &&Key| key.read(&mut Settings::default(), text);
         let first = read(&keys[0]);
-        if keys[1..].iter().any(|key| read(&key).is_ok()) {
+        if keys[1..].iter().any(|key| read(key).is_ok()) {
             return Ok(text.to_string());
         }
         first.map(|()| text.to_string())

@@ -56,11 +56,7 @@ fn drawn(sky: &mut Sky, params: &SkyParams, view: &Camera, seconds: f64) -> Vec<
 /// Every kind of weather at once.
 fn all_weather(params: SkyParams) -> SkyParams {
     with(params, |w| {
-        *w = WeatherParams {
-            rays: 1.0,
-            rain: 1.0,
-            lightning: flash(),
-        };
+        (w.rays, w.rain, w.lightning) = (1.0, 1.0, flash());
     })
 }
 

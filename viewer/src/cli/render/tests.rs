@@ -1,5 +1,5 @@
 use welkin_controls::{Group, Input, KEYS, Key, Settings};
-use welkin_runtime::params::{FbmParams, OctaveParams, SkyModel};
+use welkin_runtime::params::{FbmParams, SkyModel};
 
 use super::*;
 use crate::cli::{Cli, Command};
@@ -274,14 +274,10 @@ fn options_of_sprites_reach_the_sky_and_have_their_ranges() {
         "--formation",
         "0.6",
     ]);
-    let wanted = welkin_runtime::params::SpriteParams {
-        behind: Method::Lit,
-        behind_cover: 0.3,
-        distance_m: 40_000.0,
-        ring_radius_m: 8000.0,
-        billboards_beyond_m: 20_000.0,
-        formation: 0.6,
-    };
+    let mut wanted = SkyParams::default().sprites;
+    (wanted.behind, wanted.behind_cover) = (Method::Lit, 0.3);
+    (wanted.distance_m, wanted.ring_radius_m) = (40_000.0, 8000.0);
+    (wanted.billboards_beyond_m, wanted.formation) = (20_000.0, 0.6);
     assert_eq!(given.sprites, wanted);
     for (option, value, expected) in [
         ("--ring", "100", "0 or a number from 4000 to 60000 metres"),
@@ -373,12 +369,9 @@ fn options_of_octaves_reach_the_view() {
         "--domes",
         "0,0.5,1",
     ];
-    let wanted = OctaveParams {
-        count: 6,
-        sharpness: 0.3,
-        formation_interval_s: 12.5,
-        domes: [0.0, 0.5, 1.0],
-    };
+    let mut wanted = SkyParams::default().octaves;
+    (wanted.count, wanted.sharpness) = (6, 0.3);
+    (wanted.formation_interval_s, wanted.domes) = (12.5, [0.0, 0.5, 1.0]);
     assert_eq!(params(&args).octaves, wanted);
 }
 
