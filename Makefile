@@ -12,6 +12,12 @@ FRAME := --size 1280x720
 # The window is a feature, for pictures need none of what it needs.
 WINDOW := --features welkin-viewer/window
 
+# Every test is compiled with the same features, so that what one command has compiled is there for the next.
+TEST := $(CARGO) test --workspace $(WINDOW) --locked
+# What wants nothing but cargo, save the unit tests of the viewer that open an adapter.
+PLAIN := $(TEST) --lib --bins --test it --
+ADAPTER := gpu::tests headless::tests pass_times::tests timing::tests bench::mukhina::tests
+
 # What `make recipes` bakes.
 RECIPES := 20000
 SEEDS := 10000
@@ -33,7 +39,7 @@ FUZZ_FLAGS := -max_len=131072 -rss_limit_mb=2048 -timeout=20
 # The other processor that bakes are compared on, under qemu.
 AARCH64 := aarch64-unknown-linux-gnu
 
-.PHONY: help sky view gallery web test web-test recipes check bench fuzz fuzz-build aarch64 aarch64-tools tools gpu-tools window-tools desktop-tools node-tools web-tools browser clean
+.PHONY: help sky view gallery web check test test-docs test-recipes test-node test-gpu test-window test-web recipes bench fuzz fuzz-build aarch64 aarch64-tools tools gpu-tools window-tools desktop-tools node-tools web-tools browser clean
 
 help: ## Say what can be made
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
@@ -131,27 +137,45 @@ web: web-tools ## Build the page with the sky in WebAssembly into out/web/, for 
 	scripts/web-build
 	@echo "the page is in out/web/: python3 -m http.server -d out/web, then http://localhost:8000"
 
-test: gpu-tools window-tools desktop-tools node-tools ## Run every test, and formatting, lints and docs without a warning
+# A test program is named after what it wants: `it` nothing but cargo, `recipes` time, `node`, `gpu` and `window` their tools.
+check: ## Formatting, lints, and the tests that want nothing but cargo: two minutes
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets $(WINDOW) --locked -- -D warnings
-	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps $(WINDOW) --locked
-	$(CARGO) build --release --locked -p welkin-baker
-	WELKIN_RELEASE=$(CURDIR)/$(WELKIN) $(CARGO) test --workspace $(WINDOW) --locked -- --include-ignored
-	$(CARGO) test --release --locked -p welkin-baker --test recipes
 	if $(CARGO) tree --locked -e normal,build -p welkin-baker | grep -q ' wgpu '; then echo "the baker must not need wgpu"; exit 1; fi
-	$(MAKE) web-test
+	$(PLAIN) $(addprefix --skip ,$(ADAPTER))
 
-# The viewer is compiled as for the other tests, after which there is nothing to do.
-web-test: web gpu-tools browser ## Test the page: its bakes, and its pictures in headless Chromium
-	$(CARGO) build --workspace --all-targets $(WINDOW) --locked
+# One after the other, also with `make -j`: they compile in one folder, and those with a clock want the machine for themselves.
+.NOTPARALLEL:
+
+test: tools check test-docs test-recipes test-node test-gpu test-window test-web ## Run every test, and formatting, lints and docs without a warning
+
+test-docs: ## Compile the documentation without a warning, and run its examples
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps $(WINDOW) --locked
+	$(TEST) --doc
+
+# With debug assertions, and many times as many with the program that users have.
+test-recipes: ## Bake recipes at random and packs by the dozen, and the default pack with the release build: the same bytes
+	$(CARGO) build --release --locked -p welkin-baker
+	WELKIN_RELEASE=$(CURDIR)/$(WELKIN) $(TEST) --test recipes -- --include-ignored
+	$(CARGO) test --release --locked -p welkin-baker --test recipes
+
+test-node: node-tools ## Read packs and fields with readers of others
+	$(TEST) --test node -- --include-ignored
+
+test-gpu: gpu-tools node-tools ## Test what is drawn, on any Vulkan and GL driver, software ones will do
+	$(PLAIN) $(ADAPTER)
+	$(TEST) --test gpu -- --include-ignored
+
+test-window: gpu-tools window-tools desktop-tools ## Test the window on a display without a screen
+	$(TEST) --test window -- --include-ignored
+
+# The test of the window is what has the viewer compiled as the other tests have it.
+test-web: web gpu-tools browser ## Test the page: its bakes, and its pictures in headless Chromium
+	$(TEST) --no-run --test window
 	cd web && WELKIN_VIEW=$(CURDIR)/target/debug/welkin-view node --test --test-concurrency=1 test/*.test.mjs
 
 recipes: ## Bake RECIPES random recipes and the default one with SEEDS seeds, and check them all
 	WELKIN_RECIPES=$(RECIPES) WELKIN_SEEDS=$(SEEDS) $(CARGO) test --release --locked -p welkin-baker --test recipes -- legal:: --nocapture
-
-check: ## Compile and lint, without running anything
-	$(CARGO) fmt --all --check
-	$(CARGO) clippy --workspace --all-targets $(WINDOW) --locked -- -D warnings
 
 bench: gpu-tools ## Measure the bake, and the GPU milliseconds of a frame of each method
 	$(CARGO) build --release --locked -p welkin-baker -p welkin-viewer
