@@ -165,6 +165,7 @@ test-node: node-tools ## Read packs and fields with readers of others
 test-gpu: gpu-tools node-tools ## Test what is drawn, on any Vulkan and GL driver, software ones will do
 	$(PLAIN) $(ADAPTER)
 	$(TEST) --test gpu -- --include-ignored
+	$(CARGO) test --locked -p welkin-runtime --no-default-features --lib --test gpu
 
 test-window: gpu-tools window-tools desktop-tools ## Test the window on a display without a screen
 	$(TEST) --test window -- --include-ignored

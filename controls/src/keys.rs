@@ -5,7 +5,9 @@ use std::ops::Deref;
 use serde::{Serialize, Serializer};
 use welkin_pack::shown;
 use welkin_runtime::params::row::{number, seconds, text};
-use welkin_runtime::params::{CommandOption, DefaultSaid, Group, Input, Number, SETTINGS, Setting, Words};
+use welkin_runtime::params::{
+    CommandOption, DefaultSaid, Group, Input, Number, SETTINGS, Setting, Words,
+};
 
 use crate::lightning::{LIGHTNING_FORM, clear_flash, flash_text, set_flash};
 use crate::settings::{LAST_SECOND, Settings};

@@ -1,9 +1,7 @@
 //! No parameter, camera, sun or time makes a pixel that is not a finite, positive amount of light.
 
 use welkin_pack::{LayerKind, Pack, mapping};
-use welkin_runtime::params::{Lightning, LitParams, PerezShape, SkyModel, WeatherParams};
-use welkin_runtime::params::{OTHERS, SETTINGS};
-use welkin_runtime::params::{Lightning, LitParams, PerezShape, SkyModel};
+use welkin_runtime::params::{Lightning, LitParams, OTHERS, PerezShape, SETTINGS, SkyModel};
 use welkin_runtime::{Camera, Method, SkyParams};
 use welkin_tests::{gpu, pack};
 

@@ -6,7 +6,9 @@
 use clap::ValueEnum;
 use welkin_pack::LayerKind;
 use welkin_runtime::internals::sprites::ring;
-use welkin_runtime::params::{LitLayer, LitParams, OctaveParams, SkyModel, SpriteParams, WeatherParams};
+use welkin_runtime::params::{
+    LitLayer, LitParams, OctaveParams, SkyModel, SpriteParams, WeatherParams,
+};
 use welkin_runtime::params::{MAX_LAYERS, MAX_OCTAVES, MOST_DISTANCE_M};
 use welkin_runtime::{Camera, Method, SkyParams};
 
@@ -58,9 +60,11 @@ pub fn scenes(method: Method, ring_radius_m: f32) -> Vec<Scene> {
         scene("night", night(usual), SOUTH_DEG),
         scene("alone", alone(usual), SOUTH_DEG),
     ];
+    // What is behind the clouds is the same for every method.
+    if method == Method::Packed {
+        scenes.push(scene("alone, Perez sky", alone(perez), SOUTH_DEG));
+    }
     match method {
-        // What is behind the clouds is the same for every method.
-        Method::Packed => scenes.push(scene("alone, Perez sky", alone(perez), SOUTH_DEG)),
         Method::Octaves => scenes.extend((1..=MAX_OCTAVES).map(|count| {
             let label = format!("alone, {count} octave{}", if count == 1 { "" } else { "s" });
             let octaves = OctaveParams {
@@ -78,6 +82,7 @@ pub fn scenes(method: Method, ring_radius_m: f32) -> Vec<Scene> {
             let scenes = |of| scenes_of_sprites(of, ring_radius_m);
             return SpriteScene::ALL.into_iter().flat_map(scenes).collect();
         }
+        _ => {}
     }
     scenes
 }

@@ -2,7 +2,9 @@
 
 use glam::Vec3;
 use welkin_pack::LayerKind;
-use welkin_runtime::params::{FbmParams, LitLayer, LitParams, OctaveParams, PerezParams, PerezShape, SkyModel};
+use welkin_runtime::params::{
+    FbmParams, LitLayer, LitParams, OctaveParams, PerezParams, PerezShape, SkyModel,
+};
 use welkin_runtime::{Camera, Method, SkyParams};
 
 pub const SIZE: [u32; 2] = [96, 72];
