@@ -13,7 +13,7 @@ use crate::frame::Uniforms;
 use crate::geometry::camera::Rays;
 use crate::geometry::camera::{self, Camera};
 use crate::geometry::math::finite;
-use crate::methods::MethodFrame;
+use crate::methods::interface::MethodFrame;
 use crate::pack_data::PackData;
 use crate::params::{Method, SkyParams};
 use crate::tonemap;

@@ -33,7 +33,7 @@ use crate::error::SkyError;
 use crate::frame::Uniforms;
 use crate::geometry::camera::Camera;
 use crate::geometry::math::smoothstep;
-use crate::methods::Shown;
+use crate::methods::interface::Shown;
 use crate::pack_data::PackData;
 use crate::params::SkyParams;
 

@@ -2,7 +2,7 @@
 
 use crate::device::common::{Common, Dome};
 use crate::device::pipeline::{Overlay, Variant};
-use crate::methods::MapPass;
+use crate::methods::interface::MapPass;
 use crate::params::{Method, SkyModel, SkyParams};
 #[cfg(feature = "weather")]
 use crate::weather::overlays::{Overlays, Shown};

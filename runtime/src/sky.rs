@@ -22,7 +22,7 @@ use crate::frame::Uniforms;
 use crate::geometry::camera::Camera;
 use crate::geometry::dome;
 use crate::geometry::math::finite;
-use crate::methods::MapFrame;
+use crate::methods::interface::MapFrame;
 use crate::pack_data::PackData;
 use crate::params::{Method, SkyModel, SkyParams};
 use crate::parts;

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use welkin_pack::Role;
 
-use super::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
+use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clear_sky::light::{Light, luminary};
 use crate::clouds::lit::{self, coverage, map, shadow};
 use crate::device::common::Common;

@@ -6,6 +6,7 @@
 
 #[cfg(feature = "fbm")]
 mod fbm;
+pub(crate) mod interface;
 #[cfg(feature = "lit")]
 mod lit;
 #[cfg(feature = "octaves")]
@@ -14,138 +15,8 @@ mod packed;
 #[cfg(feature = "sprites")]
 mod sprites;
 
-use std::fmt::Debug;
-
-use glam::Vec3;
-use welkin_pack::Role;
-
-use crate::clear_sky::light::Light;
-use crate::clouds::coverage::Distributions;
-use crate::clouds::shared::{self, CloudView};
-use crate::device::common::Common;
-use crate::device::layouts::Layouts;
-use crate::frame::Uniforms;
-use crate::geometry::part::Part;
-use crate::pack_data::PackData;
-use crate::params::{Method, SkyParams};
-
-/// A method, as the rest of the runtime sees it.
-pub(crate) trait CloudMethod: Sync {
-    /// The pack's texture that this method alone reads.
-    fn role(&self) -> Role;
-
-    /// Whether its texture is uploaded for it alone. The packed texture is in the group that all share, and the octaves' noise stays on
-    /// the CPU.
-    fn uploads(&self) -> bool {
-        false
-    }
-
-    /// Its parts of the shader.
-    fn parts(&self) -> &'static [Part];
-
-    /// Whether its clouds are often opaque, so that to ask first pays.
-    fn is_often_opaque(&self) -> bool {
-        true
-    }
-
-    /// The layout of group 1 of its dome, if it has one.
-    fn own_layout<'a>(&self, _layouts: &'a Layouts) -> Option<&'a wgpu::BindGroupLayout> {
-        None
-    }
-
-    /// Its off-screen pass, if it has one.
-    fn map(
-        &self,
-        _common: &Common,
-        _module: &wgpu::ShaderModule,
-        _params: &SkyParams,
-    ) -> Option<Box<dyn MapPass>> {
-        None
-    }
-
-    /// Writes its share of the uniforms. What all clouds share is there already.
-    fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>);
-
-    /// What lights its clouds: the sun, unless it knows the moon.
-    fn luminary(&self, light: &Light, _params: &SkyParams) -> Light {
-        *light
-    }
-
-    /// Light of the sun on its clouds.
-    fn sunlight(&self, uniforms: &Uniforms) -> Vec3 {
-        uniforms.clouds.sunlight
-    }
-
-    /// How overcast the sky behind is, 0..1.
-    fn closing(&self, params: &SkyParams, _viewer_m: f32, _pack: &PackData) -> f32 {
-        shared::closing(params.cover)
-    }
-
-    /// Radiance of an overcast far away, where single clouds cannot be told apart.
-    fn overcast(&self, uniforms: &Uniforms, pack: &PackData) -> Vec3;
-
-    /// The fraction of the sky in which its clouds have more than this opacity.
-    fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32;
-}
-
-/// The off-screen pass of a method.
-pub(crate) trait MapPass: Debug + wgpu::WasmNotSendSync {
-    /// Makes its textures anew if the parameters want others.
-    fn fit(&mut self, _common: &Common, _params: &SkyParams) {}
-
-    /// Records the passes of a frame.
-    fn record(
-        &mut self,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
-        shared: &wgpu::BindGroup,
-        frame: &MapFrame<'_>,
-    );
-
-    /// Group 1 of the dome.
-    fn group(&self) -> &wgpu::BindGroup;
-
-    /// The map itself.
-    fn texture(&self) -> &wgpu::Texture;
-
-    /// The shadows of its clouds on the ground, once they were asked for.
-    fn shadow(&self) -> Option<&wgpu::Texture> {
-        None
-    }
-
-    /// Bytes of all its textures.
-    fn bytes(&self) -> u64;
-}
-
-/// What a method's uniforms are computed from.
-pub(crate) struct MethodFrame<'a> {
-    /// In range. Those of the dome: see [`SkyParams::dome`].
-    pub params: &'a SkyParams,
-    /// In range, as the user set them.
-    pub whole: &'a SkyParams,
-    pub view: CloudView,
-    pub light: Light,
-    /// Light of a flash of lightning; only what is drawn over the dome may read it.
-    pub flash: Vec3,
-    pub pack: &'a PackData,
-}
-
-/// What the fraction of the sky that clouds cover follows from.
-pub(crate) struct Shown<'a> {
-    /// In range.
-    pub params: &'a SkyParams,
-    pub uniforms: &'a Uniforms,
-    pub texels: &'a Distributions,
-}
-
-/// What a method's map is drawn from.
-pub(crate) struct MapFrame<'a> {
-    /// In range.
-    pub params: &'a SkyParams,
-    pub seconds: f64,
-    pub uniforms: &'a Uniforms,
-    pub pack: &'a PackData,
-}
+use crate::methods::interface::CloudMethod;
+use crate::params::Method;
 
 impl Method {
     /// What makes its clouds.

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use welkin_pack::Role;
 
-use super::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
+use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::octaves::{self, coverage, map};
 use crate::device::common::Common;
 use crate::device::layouts::Layouts;

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use welkin_pack::Role;
 
-use super::{CloudMethod, MethodFrame, Shown};
+use super::interface::{CloudMethod, MethodFrame, Shown};
 use crate::frame::Uniforms;
 use crate::geometry::part::Part;
 use crate::pack_data::PackData;
