@@ -1,4 +1,4 @@
-//! A frame's uniforms, a struct a pass. `evaluate.rs` computes them.
+//! A frame's uniforms, a struct a pass. `sky/evaluate.rs` computes them.
 
 use crate::clear_sky::flares::FlareUniforms;
 use crate::clear_sky::galaxy::GalaxyUniforms;

@@ -45,7 +45,6 @@ pub mod internals {
     pub mod clouds;
     pub mod device;
     pub mod error;
-    pub(crate) mod evaluate;
     pub mod frame;
     pub mod geometry;
     pub(crate) mod methods;
@@ -53,7 +52,6 @@ pub mod internals {
     pub mod pack_data;
     pub mod params;
     pub mod parts;
-    pub(crate) mod program;
     pub mod sky;
     #[cfg(feature = "sprites")]
     pub mod sprites;
@@ -79,5 +77,5 @@ pub(crate) use internals::sprites;
 #[cfg(feature = "weather")]
 pub(crate) use internals::weather;
 pub(crate) use internals::{
-    clear_sky, clouds, device, error, frame, geometry, methods, pack_data, parts, program, tonemap,
+    clear_sky, clouds, device, error, frame, geometry, methods, pack_data, parts, sky, tonemap,
 };

@@ -91,7 +91,7 @@ pub fn text(build: Build, dome: Dome) -> String {
 const SKY: Part = Part {
     constants: &[],
     structs: &[],
-    wgsl: include_str!("sky.wgsl"),
+    wgsl: include_str!("sky/sky.wgsl"),
 };
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Twin of ring.wgsl.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::internals::sprites::ring::HALF_SIDE;
-use welkin_runtime::internals::sprites::ring::{RingSet, RingUniforms};
+use welkin_runtime::internals::sprites::station::HALF_SIDE;
+use welkin_runtime::internals::sprites::station::{RingSet, RingUniforms};
 
 /// Where a ray from the viewer leaves a ring's octagon: its side, and u and v on that side's picture. v is outside of 0..1 above
 /// and below.

@@ -6,7 +6,7 @@ use welkin_runtime::internals::sprites::instances::Instance;
 use welkin_runtime::internals::sprites::locks::{LOCK, NEAR};
 use welkin_runtime::internals::sprites::outline::Outline;
 use welkin_runtime::internals::sprites::pipelines::SpriteBlock;
-use welkin_runtime::internals::sprites::ring::SpriteView;
+use welkin_runtime::internals::sprites::station::SpriteView;
 use welkin_runtime::internals::sprites::{RIM_OPAQUE, SpriteUniforms, formation};
 
 use crate::texture::{Texture, smoothstep};

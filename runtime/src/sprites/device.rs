@@ -5,8 +5,8 @@ use wgpu::util::DeviceExt;
 use super::instances::{A_ROW, Instance};
 use super::outline;
 use super::pipelines::{GroupLayouts, STRIDE, SpriteBlock, one_of};
-use super::ring::SpriteView;
 use super::scene::{AMOUNTS_SIDE, Draw, Scene};
+use super::station::SpriteView;
 
 /// The uniforms of blocks, one after another.
 #[derive(Debug)]

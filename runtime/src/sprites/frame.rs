@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::SpriteUniforms;
-use super::ring::{SpriteView, Station};
+use super::station::{SpriteView, Station};
 use super::wind::in_field;
 use crate::device::config::DepthConfig;
 use crate::geometry::camera::{Camera, CameraUniforms};

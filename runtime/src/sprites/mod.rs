@@ -35,6 +35,7 @@ pub(crate) mod pass;
 pub mod pipelines;
 pub mod ring;
 pub mod scene;
+pub mod station;
 pub mod wind;
 
 use glam::{DVec3, Vec3};

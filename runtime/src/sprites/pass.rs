@@ -13,14 +13,15 @@ use super::grid::{BlockId, around, slots_a_side};
 use super::instances::{A_ROW, Instance};
 use super::outline::{self, Outline};
 use super::pipelines::{GroupLayouts, Pipelines, STRIDE, one_of, pictures};
-use super::ring::{self, Ring, RingUniforms, SpriteView, Station, Step};
+use super::ring::{Ring, Step};
 use super::scene::{AMOUNTS_SIDE, Draw, Scene, planes};
+use super::station::{self, RingUniforms, SpriteView, Station};
 use super::wind::lift_m;
 use crate::device::common::{Common, Dome};
 use crate::params::{Method, SkyModel};
 
 /// Views of a frame: the screen's and the ring's pictures'.
-const VIEWS: u64 = 1 + ring::PICTURES as u64;
+const VIEWS: u64 = 1 + station::PICTURES as u64;
 
 /// The sprites of a field, and what draws them.
 #[derive(Debug)]
@@ -194,7 +195,7 @@ impl Pass {
 
     /// Bytes of the ring's pictures.
     pub fn ring_bytes(&self) -> u64 {
-        self.pictures.iter().flatten().count() as u64 * ring::BYTES
+        self.pictures.iter().flatten().count() as u64 * station::BYTES
     }
 
     /// Bytes of all that it keeps on the device: sprites in sight, uniforms, amounts, pictures.
@@ -283,7 +284,7 @@ impl Pass {
         let mut pictures = Pictures::default();
         let next = self.ring.as_ref().and_then(Ring::next);
         let (station, first, last, parts) = match (self.step, &self.ring, next) {
-            (Step::All, Some(ring), _) => (*ring.current(), 0, ring::PICTURES, [0, 1]),
+            (Step::All, Some(ring), _) => (*ring.current(), 0, station::PICTURES, [0, 1]),
             (Step::Part([picture, part]), _, Some(next)) => {
                 pictures.target = 1;
                 (*next, picture, picture + 1, [part, next.parts()])
@@ -449,7 +450,7 @@ impl Pass {
 }
 
 /// Vertices of the ring's walls: two at each corner, the first one twice.
-const RING_VERTICES: u32 = 2 * (ring::PICTURES as u32 + 1);
+const RING_VERTICES: u32 = 2 * (station::PICTURES as u32 + 1);
 
 /// The pictures that a frame draws.
 #[derive(Clone, Copy, Debug, Default)]
@@ -459,5 +460,5 @@ struct Pictures {
     /// Whether they are drawn over what is there of them.
     goes_on: bool,
     /// Where the draws of each begin and end.
-    draws: [Option<[usize; 2]>; ring::PICTURES],
+    draws: [Option<[usize; 2]>; station::PICTURES],
 }

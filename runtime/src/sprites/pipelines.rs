@@ -4,7 +4,7 @@ use glam::{UVec2, Vec3};
 use welkin_pack::SheetCell;
 
 use super::outline::Outline;
-use super::ring::{self, RingUniforms, SpriteView};
+use super::station::{self, RingUniforms, SpriteView};
 use super::{formation, instances, locks};
 use crate::device::common::Common;
 use crate::device::config::Output;
@@ -165,7 +165,7 @@ pub(crate) fn picture_format(output: Output) -> wgpu::TextureFormat {
 
 /// An array of the ring's pictures.
 pub(crate) fn pictures(device: &wgpu::Device, output: Output) -> wgpu::Texture {
-    let size = [ring::SIDE, ring::SIDE, ring::PICTURES as u32];
+    let size = [station::SIDE, station::SIDE, station::PICTURES as u32];
     target(device, "ring of impostors", picture_format(output), size, 1)
 }
 

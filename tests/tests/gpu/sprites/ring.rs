@@ -1,7 +1,8 @@
 //! The ring of impostors: size, likeness, seams, cross-fade, and what it remembers.
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
-use welkin_runtime::internals::sprites::ring::{BYTES, FADE_FRAMES, PICTURES, Ring, Station};
+use welkin_runtime::internals::sprites::ring::Ring;
+use welkin_runtime::internals::sprites::station::{BYTES, FADE_FRAMES, PICTURES, Station};
 use welkin_runtime::params::MOST_DISTANCE_M;
 use welkin_runtime::params::SpriteParams;
 use welkin_runtime::{Camera, Sky, SkyParams};

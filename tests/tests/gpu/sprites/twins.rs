@@ -7,7 +7,7 @@ use welkin_runtime::internals::sprites::grid::{BlockId, around};
 use welkin_runtime::internals::sprites::instances::{Instance, sections};
 use welkin_runtime::internals::sprites::outline::{BOXES_BEYOND_M, outlines};
 use welkin_runtime::internals::sprites::pipelines::SpriteBlock;
-use welkin_runtime::internals::sprites::ring::SpriteView;
+use welkin_runtime::internals::sprites::station::SpriteView;
 use welkin_runtime::params::{Lightning, SkyModel, SpriteParams};
 use welkin_runtime::{Camera, SkyParams};
 use welkin_tests::renderer::{FILTER_STEP, Frame, Twin};

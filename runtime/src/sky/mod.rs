@@ -5,6 +5,9 @@
 //! and its map, is made when that method is first prepared or [`Sky::load`]ed, and kept. Draw after the opaque scene:
 //! pixels that the scene covers then cost nothing.
 
+mod evaluate;
+mod program;
+
 use welkin_pack::{Pack, Role};
 use wgpu::util::DeviceExt;
 
@@ -26,7 +29,7 @@ use crate::methods::interface::MapFrame;
 use crate::pack_data::PackData;
 use crate::params::{Method, SkyModel, SkyParams};
 use crate::parts;
-use crate::program::Program;
+use crate::sky::program::Program;
 #[cfg(feature = "sprites")]
 use crate::sprites::{self, layer::SpriteLayer};
 #[cfg(feature = "weather")]
