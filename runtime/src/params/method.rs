@@ -23,19 +23,6 @@ pub enum Method {
 }
 
 impl Method {
-    /// Every method, in the order of their numbers.
-    pub const ALL: [Method; Method::DOMES.len() + cfg!(feature = "sprites") as usize] = [
-        Method::Packed,
-        #[cfg(feature = "octaves")]
-        Method::Octaves,
-        #[cfg(feature = "fbm")]
-        Method::Fbm,
-        #[cfg(feature = "lit")]
-        Method::Lit,
-        #[cfg(feature = "sprites")]
-        Method::Sprites,
-    ];
-
     /// The methods whose clouds are on a dome about the viewer, in the order of their numbers.
     pub const DOMES: [Method;
         1 + cfg!(feature = "octaves") as usize
@@ -50,52 +37,68 @@ impl Method {
         Method::Lit,
     ];
 
+    /// Every method, in the order of their numbers.
+    pub const ALL: [Method; Method::DOMES.len() + cfg!(feature = "sprites") as usize] = {
+        let mut all = [Method::Packed; Method::DOMES.len() + cfg!(feature = "sprites") as usize];
+        let mut i = 0;
+        while i < Method::DOMES.len() {
+            all[i] = Method::DOMES[i];
+            i += 1;
+        }
+        #[cfg(feature = "sprites")]
+        {
+            all[i] = Method::Sprites;
+        }
+        all
+    };
+
     /// The name on command lines and in settings.
     pub const fn name(self) -> &'static str {
-        match self {
-            Method::Packed => "packed",
-            #[cfg(feature = "octaves")]
-            Method::Octaves => "octaves",
-            #[cfg(feature = "fbm")]
-            Method::Fbm => "fbm",
-            #[cfg(feature = "lit")]
-            Method::Lit => "lit",
-            #[cfg(feature = "sprites")]
-            Method::Sprites => "sprites",
-        }
+        self.words()[0]
     }
 
     /// What it is, in a few words.
     pub const fn title(self) -> &'static str {
-        match self {
-            Method::Packed => "Roden and Parberry: one packed cloud texture",
-            #[cfg(feature = "octaves")]
-            Method::Octaves => "USC: octaves of white noise that form anew, on three domes",
-            #[cfg(feature = "fbm")]
-            Method::Fbm => {
-                "Quilez: octaves of smooth noise that drift, lit by a short march towards the sun"
-            }
-            #[cfg(feature = "lit")]
-            Method::Lit => "Mukhina and Bezgodov: layers of three kinds, lit by sun and moon",
-            #[cfg(feature = "sprites")]
-            Method::Sprites => "Wang: clouds in space, made of sprites",
-        }
+        self.words()[1]
     }
 
     /// Where it was published.
     pub const fn paper(self) -> &'static str {
+        self.words()[2]
+    }
+
+    /// Name, title, paper.
+    const fn words(self) -> [&'static str; 3] {
         match self {
-            Method::Packed => "T. Roden, I. Parberry, “Clouds and Stars”, 2005",
+            Method::Packed => [
+                "packed",
+                "Roden and Parberry: one packed cloud texture",
+                "T. Roden, I. Parberry, “Clouds and Stars”, 2005",
+            ],
             #[cfg(feature = "octaves")]
-            Method::Octaves => "S. Guthikonda and others, “Realistic Real-Time Skies”, USC",
+            Method::Octaves => [
+                "octaves",
+                "USC: octaves of white noise that form anew, on three domes",
+                "S. Guthikonda and others, “Realistic Real-Time Skies”, USC",
+            ],
             #[cfg(feature = "fbm")]
-            Method::Fbm => "I. Quilez, “Dynamic Clouds”, 2005",
+            Method::Fbm => [
+                "fbm",
+                "Quilez: octaves of smooth noise that drift, lit by a short march towards the sun",
+                "I. Quilez, “Dynamic Clouds”, 2005",
+            ],
             #[cfg(feature = "lit")]
-            Method::Lit => {
-                "K. Mukhina, A. Bezgodov, “The Method for Real-time Cloud Rendering”, 2015"
-            }
+            Method::Lit => [
+                "lit",
+                "Mukhina and Bezgodov: layers of three kinds, lit by sun and moon",
+                "K. Mukhina, A. Bezgodov, “The Method for Real-time Cloud Rendering”, 2015",
+            ],
             #[cfg(feature = "sprites")]
-            Method::Sprites => "N. Wang, “Let There Be Clouds!”, 2004",
+            Method::Sprites => [
+                "sprites",
+                "Wang: clouds in space, made of sprites",
+                "N. Wang, “Let There Be Clouds!”, 2004",
+            ],
         }
     }
 }
