@@ -57,17 +57,17 @@ impl Settings {
 
     /// The settings that are not the usual ones, by name and text: what a link holds. [`Settings::from_pairs`] gives the settings back.
     pub fn changes(&self) -> Vec<(&'static str, String)> {
-        let usual = self.usual();
-        let changed = |key: &&Key| key.text(self) != key.text(&usual);
+        let defaults = self.defaults();
+        let changed = |key: &&Key| key.text(self) != key.text(&defaults);
         let changed = KEYS.iter().filter(changed);
         changed.map(|key| (key.name, key.text(self))).collect()
     }
 
     /// The usual settings, but for the palette, whose colours are the usual ones of its own.
-    fn usual(&self) -> Settings {
-        let mut usual = Settings::default();
-        usual.params.fbm = PALETTES[self.params.fbm.palette()].2;
-        usual
+    fn defaults(&self) -> Settings {
+        let mut defaults = Settings::default();
+        defaults.params.fbm = PALETTES[self.params.fbm.palette()].2;
+        defaults
     }
 
     /// The options of `welkin-view render` that draw this moment, those that are not the usual ones.
@@ -76,11 +76,11 @@ impl Settings {
             params: self.frame_params(),
             ..*self
         };
-        let usual = frame.usual();
+        let defaults = frame.defaults();
         let mut words = Vec::new();
         for key in KEYS {
             // The palette is usual in `usual`, but not at the command line.
-            let changed = key.text(&frame) != key.text(&usual) || key.name == "palette";
+            let changed = key.text(&frame) != key.text(&defaults) || key.name == "palette";
             if changed && key.applies(&frame) {
                 words.extend(key.options(&frame));
             }

@@ -10,7 +10,7 @@
 //! `Limits::downlevel_webgl2_defaults()`. All work a frame is done in [`Sky::prepare`], which writes one
 //! uniform buffer and draws off screen what needs that: the small cloud maps of [`Method::Octaves`], [`Method::Fbm`] and [`Method::Lit`],
 //! the impostors of [`Method::Sprites`], and cloud shadows and rays while they are on. A frame is a pure function of pack, parameters,
-//! camera and seconds, but for what [`Sky::forget`] forgets.
+//! camera and seconds, but for what [`Sky::reset_history`] forgets.
 //!
 //! ```no_run
 //! # fn f(device: &wgpu::Device, queue: &wgpu::Queue, mut encoder: wgpu::CommandEncoder, descriptor: &wgpu::RenderPassDescriptor<'_>) -> Result<(), Box<dyn std::error::Error>> {

@@ -4,7 +4,7 @@
 use crate::clear_sky::perez;
 use crate::clear_sky::{flares, galaxy, gradient, light, skybox, stars, sun};
 use crate::clouds::shared;
-use crate::device::common::Dome;
+use crate::device::context::Dome;
 use crate::device::map;
 use crate::device::shader::{Build, compose};
 use crate::geometry::part::{Part, Value};
@@ -165,7 +165,7 @@ mod tests {
                 .iter()
                 .map(|e| e.name.as_str())
                 .collect();
-            let common = [
+            let context = [
                 "vs_screen",
                 "vs_dome",
                 "vs_map",
@@ -184,7 +184,7 @@ mod tests {
             ];
             let has_weather = cfg!(feature = "weather") && build.1.weather;
             let weather = if has_weather { &weather[..] } else { &[] };
-            let mut expected = [&common, own_entries(build.1.method), weather].concat();
+            let mut expected = [&context, own_entries(build.1.method), weather].concat();
             entries.sort_unstable();
             expected.sort_unstable();
             assert_eq!(entries, expected, "{build:?}");

@@ -151,14 +151,14 @@ fn sources() -> Vec<Source> {
 }
 
 fn build(noon_elevation_rad: Option<f32>, sources: Vec<Source>) -> Pack {
-    let usual = default_pack().manifest();
+    let defaults = default_pack().manifest();
     let info = PackInfo {
         name: "changed".to_string(),
-        seed: usual.seed,
+        seed: defaults.seed,
         baker: "welkin-tests".to_string(),
         recipe: String::new(),
         inputs: Vec::new(),
-        noon_elevation_rad: noon_elevation_rad.unwrap_or(usual.noon_elevation_rad),
+        noon_elevation_rad: noon_elevation_rad.unwrap_or(defaults.noon_elevation_rad),
         noise: resolved().clouds.noise,
         detail: resolved().clouds.detail,
     };

@@ -181,8 +181,8 @@ impl Frame<'_> {
         off: &[f32],
         picture: impl Fn(&Self) -> Vec<Vec3>,
     ) -> Vec<Vec3> {
-        let usual = picture(self);
-        let mut worth = vec![Vec3::ZERO; usual.len()];
+        let defaults = picture(self);
+        let mut worth = vec![Vec3::ZERO; defaults.len()];
         for (read, &off) in off.iter().enumerate().filter(|(_, off)| **off > 0.0) {
             let changed = [-off, off].map(|nudge| {
                 self.nudges[read] = nudge;
@@ -190,7 +190,8 @@ impl Frame<'_> {
             });
             self.nudges[read] = 0.0;
             for (index, worth) in worth.iter_mut().enumerate() {
-                let [less, more] = [0, 1].map(|i: usize| (changed[i][index] - usual[index]).abs());
+                let [less, more] =
+                    [0, 1].map(|i: usize| (changed[i][index] - defaults[index]).abs());
                 *worth += less.max(more);
             }
         }

@@ -54,7 +54,7 @@ impl<'a> Environment<'a> {
         width: u32,
         azimuth_rad: f32,
     ) -> Result<Frame, GpuError> {
-        self.stage.forget();
+        self.stage.reset_history();
         let map = equirect::draw(&view.camera, width, azimuth_rad, |camera| {
             self.radiance(view, camera)
         })?;
@@ -66,7 +66,7 @@ impl<'a> Environment<'a> {
     /// # Errors
     /// [`GpuError::FrameSize`], [`GpuError::Device`].
     pub fn cubemap(&mut self, view: &View, side: u32) -> Result<Cubemap, GpuError> {
-        self.stage.forget();
+        self.stage.reset_history();
         cubemap::draw(&view.camera, side, |camera| self.radiance(view, camera))
     }
 

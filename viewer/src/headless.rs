@@ -63,9 +63,9 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// Forgets the frames before, as [`Sky::forget`].
-    pub fn forget(&mut self) {
-        self.sky.forget();
+    /// Forgets the frames before, as [`Sky::reset_history`].
+    pub fn reset_history(&mut self) {
+        self.sky.reset_history();
     }
 
     /// Draws a frame.

@@ -147,10 +147,10 @@ impl Distribution {
 
     /// The standard's, which is 1 at a right angle to the sun.
     pub fn cie(numbers: [f32; 5]) -> Distribution {
-        let usual = Distribution::new(numbers);
+        let defaults = Distribution::new(numbers);
         Distribution {
-            base: 1.0 - usual.c * (usual.d * FRAC_PI_2).exp(),
-            ..usual
+            base: 1.0 - defaults.c * (defaults.d * FRAC_PI_2).exp(),
+            ..defaults
         }
     }
 

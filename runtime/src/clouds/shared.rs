@@ -140,13 +140,13 @@ pub(crate) fn softened(alpha: f32, edge: f32) -> f32 {
 }
 
 /// Its inverse: the positive root of `(1 + e) a^2 - s a - s e`.
-pub(crate) fn before_softening(softened: f32, edge: f32) -> f32 {
+pub(crate) fn inverse_soften(softened: f32, edge: f32) -> f32 {
     let wide = 2.0 * (1.0 + edge);
     (softened + (softened * softened + 2.0 * wide * softened * edge).sqrt()) / wide
 }
 
 /// Inverse of `smoothstep(0, 1, t)`: the root of the cubic, by angles.
-pub(crate) fn before_smoothstep(value: f32) -> f32 {
+pub(crate) fn inverse_smoothstep(value: f32) -> f32 {
     0.5 - ((1.0 - 2.0 * value).asin() / 3.0).sin()
 }
 
@@ -156,7 +156,7 @@ pub(crate) fn behind(opacity: f32, clear: f32) -> f32 {
 }
 
 /// Inverse of `c + k c (1 - c)` in 0..1: the finer reads' roughening. One root, since 0 and 1 stay where they are.
-pub(crate) fn before_roughening(rough: f32, k: f32) -> f32 {
+pub(crate) fn inverse_roughen(rough: f32, k: f32) -> f32 {
     let b = 1.0 + k;
     2.0 * rough / (b + (b * b - 4.0 * k * rough).max(0.0).sqrt()).max(1e-9)
 }
@@ -208,15 +208,15 @@ mod tests {
         for i in 1..100 {
             let x = i as f32 / 100.0;
             assert!(
-                (before_smoothstep(smoothstep(0.0, 1.0, x)) - x).abs() < 1e-3,
+                (inverse_smoothstep(smoothstep(0.0, 1.0, x)) - x).abs() < 1e-3,
                 "{x}"
             );
             // Of the packed method and of the octaves.
             for edge in [0.12, 0.6] {
-                assert!((before_softening(softened(x, edge), edge) - x).abs() < 1e-4);
+                assert!((inverse_soften(softened(x, edge), edge) - x).abs() < 1e-4);
             }
             for k in [-3.0, -1.0, -0.4, 0.0, 0.4, 1.0, 3.0] {
-                let c = before_roughening(x, k);
+                let c = inverse_roughen(x, k);
                 let back = c + k * c * (1.0 - c);
                 assert!(
                     (0.0..=1.0).contains(&c) && (back - x).abs() < 1e-3,

@@ -1,7 +1,7 @@
 //! What every pass needs of a device: layouts, pipelines, textures, the shader's text. It knows no method by name.
 
-pub mod common;
 pub mod config;
+pub mod context;
 pub mod layouts;
 pub mod map;
 pub mod pipeline;

@@ -5,7 +5,7 @@ use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::fbm::{self, coverage, map, pack};
-use crate::device::common::Common;
+use crate::device::context::Context;
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
 use crate::frame::Uniforms;
@@ -34,12 +34,12 @@ impl CloudMethod for Fbm {
 
     fn map(
         &self,
-        common: &Common,
+        context: &Context,
         module: &wgpu::ShaderModule,
         _params: &SkyParams,
     ) -> Option<Box<dyn MapPass>> {
-        let octaves = common.own_texture(Method::Fbm)?;
-        let pass = map::Pass::new(&common.device, module, &common.layouts, octaves);
+        let octaves = context.own_texture(Method::Fbm)?;
+        let pass = map::Pass::new(&context.device, module, &context.layouts, octaves);
         Some(Box::new(pass))
     }
 

@@ -8,7 +8,7 @@ use welkin_pack::Role;
 use crate::clear_sky::light::Light;
 use crate::clouds::coverage::Distributions;
 use crate::clouds::shared::{self, CloudView};
-use crate::device::common::Common;
+use crate::device::context::Context;
 use crate::device::layouts::Layouts;
 use crate::frame::Uniforms;
 use crate::geometry::part::Part;
@@ -42,7 +42,7 @@ pub(crate) trait CloudMethod: Sync {
     /// Its off-screen pass, if it has one.
     fn map(
         &self,
-        _common: &Common,
+        _context: &Context,
         _module: &wgpu::ShaderModule,
         _params: &SkyParams,
     ) -> Option<Box<dyn MapPass>> {
@@ -77,7 +77,7 @@ pub(crate) trait CloudMethod: Sync {
 /// The off-screen pass of a method.
 pub(crate) trait MapPass: Debug + wgpu::WasmNotSendSync {
     /// Makes its textures anew if the parameters want others.
-    fn fit(&mut self, _common: &Common, _params: &SkyParams) {}
+    fn ensure(&mut self, _context: &Context, _params: &SkyParams) {}
 
     /// Records the passes of a frame.
     fn record(
@@ -108,7 +108,7 @@ pub(crate) struct MethodFrame<'a> {
     /// In range. Those of the dome: see [`SkyParams::dome`].
     pub params: &'a SkyParams,
     /// In range, as the user set them.
-    pub whole: &'a SkyParams,
+    pub clamped: &'a SkyParams,
     pub view: CloudView,
     pub light: Light,
     /// Light of a flash of lightning; only what is drawn over the dome may read it.

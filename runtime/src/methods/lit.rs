@@ -6,7 +6,7 @@ use welkin_pack::Role;
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clear_sky::light::{Light, luminary};
 use crate::clouds::lit::{self, coverage, map, shadow};
-use crate::device::common::Common;
+use crate::device::context::Context;
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
 use crate::frame::Uniforms;
@@ -35,13 +35,13 @@ impl CloudMethod for Lit {
 
     fn map(
         &self,
-        common: &Common,
+        context: &Context,
         module: &wgpu::ShaderModule,
         _params: &SkyParams,
     ) -> Option<Box<dyn MapPass>> {
-        let layers = common.own_texture(Method::Lit)?;
+        let layers = context.own_texture(Method::Lit)?;
         Some(Box::new(Pass {
-            map: map::Pass::new(&common.device, module, &common.layouts, layers),
+            map: map::Pass::new(&context.device, module, &context.layouts, layers),
             module: module.clone(),
             shadow: None,
         }))
@@ -80,9 +80,9 @@ struct Pass {
 }
 
 impl MapPass for Pass {
-    fn fit(&mut self, common: &Common, params: &SkyParams) {
+    fn ensure(&mut self, context: &Context, params: &SkyParams) {
         if params.shadow_extent_m > 0.0 {
-            let new = || shadow::Pass::new(&common.device, &self.module, &common.layouts);
+            let new = || shadow::Pass::new(&context.device, &self.module, &context.layouts);
             self.shadow.get_or_insert_with(new);
         }
     }

@@ -5,7 +5,7 @@ use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::octaves::{self, coverage, map};
-use crate::device::common::Common;
+use crate::device::context::Context;
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
 use crate::frame::Uniforms;
@@ -30,11 +30,11 @@ impl CloudMethod for Octaves {
 
     fn map(
         &self,
-        common: &Common,
+        context: &Context,
         module: &wgpu::ShaderModule,
         params: &SkyParams,
     ) -> Option<Box<dyn MapPass>> {
-        let (device, layouts) = (&common.device, &common.layouts);
+        let (device, layouts) = (&context.device, &context.layouts);
         let pass = map::Pass::new(device, module, layouts, params.octaves.count);
         Some(Box::new(pass))
     }
@@ -54,8 +54,8 @@ impl CloudMethod for Octaves {
 }
 
 impl MapPass for map::Pass {
-    fn fit(&mut self, common: &Common, params: &SkyParams) {
-        self.resize(&common.device, &common.layouts, params.octaves.count);
+    fn ensure(&mut self, context: &Context, params: &SkyParams) {
+        self.resize(&context.device, &context.layouts, params.octaves.count);
     }
 
     fn record(

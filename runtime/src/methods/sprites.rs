@@ -32,7 +32,8 @@ impl CloudMethod for Sprites {
 
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
         let (hours, flash) = (&frame.pack.hours, frame.flash);
-        uniforms.sprites = sprites::uniforms(frame.whole, &frame.view, &frame.light, hours, flash);
+        uniforms.sprites =
+            sprites::uniforms(frame.clamped, &frame.view, &frame.light, hours, flash);
     }
 
     fn closing(&self, params: &SkyParams, viewer_m: f32, pack: &PackData) -> f32 {

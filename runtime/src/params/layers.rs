@@ -99,12 +99,12 @@ fn layer(text: &str) -> Result<LitLayer, String> {
 
 /// Without a velocity of its own a layer at the height of a usual one of its kind moves as that one does, others as their kind does.
 fn velocity_m_s(layer: &LitLayer) -> [f32; 2] {
-    let usual = LitParams::default().layers;
+    let defaults = LitParams::default().layers;
     let like = |other: &&LitLayer| (other.kind, other.height) == (layer.kind, layer.height);
-    usual
+    defaults
         .iter()
         .find(like)
-        .map_or(layer.velocity_m_s, |usual| usual.velocity_m_s)
+        .map_or(layer.velocity_m_s, |defaults| defaults.velocity_m_s)
 }
 
 #[cfg(test)]
@@ -113,8 +113,8 @@ mod tests {
 
     #[test]
     fn the_text_of_the_usual_layers_stands_for_them() {
-        let usual = LitParams::default().layers;
-        assert_eq!(layers(&layers_text(&usual)), Ok(usual));
+        let defaults = LitParams::default().layers;
+        assert_eq!(layers(&layers_text(&defaults)), Ok(defaults));
     }
 
     #[test]

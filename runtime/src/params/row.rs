@@ -1,4 +1,4 @@
-//! Rows of a table of settings: what most of them have in common.
+//! Rows of a table of settings: what most of them have in context.
 
 use super::method::Method;
 use super::setting::{

@@ -31,8 +31,8 @@ impl PackData {
         seconds: f64,
         step: f32,
     ) -> Uniforms {
-        let whole = params.clamped();
-        let params = whole.dome();
+        let clamped = params.clamped();
+        let params = clamped.dome();
         let dome = params.method.clouds();
         let light = Light::new(&self.sky, self.noon_elevation_rad, params.time);
         let night = if params.stars { light.night } else { 0.0 };
@@ -52,7 +52,7 @@ impl PackData {
         };
         let frame = MethodFrame {
             params: &params,
-            whole: &whole,
+            clamped: &clamped,
             view,
             light,
             flash: Vec3::ZERO,
@@ -69,8 +69,8 @@ impl PackData {
         #[cfg(feature = "sprites")]
         Method::Sprites.clouds().write(&mut uniforms, &frame);
 
-        let shown = whole.method.clouds();
-        let closing = shown.closing(&whole, view.place_m.y as f32, self);
+        let shown = clamped.method.clouds();
+        let closing = shown.closing(&clamped, view.place_m.y as f32, self);
         let overcast = shown.overcast(&uniforms, self);
         uniforms.sky = gradient::uniforms(&light, &self.sky, params.time, night, overcast, closing);
         #[cfg(feature = "perez")]

@@ -6,7 +6,7 @@
 //! pixels that the scene covers then cost nothing.
 
 mod evaluate;
-mod program;
+mod method_pipelines;
 
 use welkin_pack::{Pack, Role};
 use wgpu::util::DeviceExt;
@@ -14,8 +14,8 @@ use wgpu::util::DeviceExt;
 use crate::clear_sky::flares;
 #[cfg(feature = "lit")]
 use crate::clouds::lit::shadow::{self, Shadow};
-use crate::device::common::Common;
 use crate::device::config::{SkyConfig, output, step};
+use crate::device::context::Context;
 use crate::device::layouts::Layouts;
 use crate::device::pipeline::Variant;
 use crate::device::shader::Build;
@@ -29,7 +29,7 @@ use crate::methods::interface::MapFrame;
 use crate::pack_data::PackData;
 use crate::params::{Method, SkyModel, SkyParams};
 use crate::parts;
-use crate::sky::program::Program;
+use crate::sky::method_pipelines::MethodPipelines;
 #[cfg(feature = "sprites")]
 use crate::sprites::{self, layer::SpriteLayer};
 #[cfg(feature = "weather")]
@@ -38,7 +38,7 @@ use crate::weather::overlays::{self, Shown};
 /// A sky on a device.
 #[derive(Debug)]
 pub struct Sky {
-    common: Common,
+    context: Context,
     shared: wgpu::BindGroup,
     buffer: wgpu::Buffer,
     /// Bytes that each method's own textures of the pack have, at its place in [`Method::ALL`].
@@ -46,7 +46,7 @@ pub struct Sky {
     pack_data: PackData,
     step: f32,
     dome: Option<DomeBuffers>,
-    programs: [Option<Program>; Method::ALL.len()],
+    pipelines: [Option<MethodPipelines>; Method::ALL.len()],
     #[cfg(feature = "sprites")]
     sprites: SpriteLayer,
     prepared: Option<Prepared>,
@@ -137,7 +137,7 @@ impl Sky {
             }
         }
         let usable = config.target_format.guaranteed_format_features(features);
-        let common = Common {
+        let context = Context {
             own,
             mesh: dome_step_deg.is_some(),
             blends: usable
@@ -150,15 +150,15 @@ impl Sky {
             layouts,
         };
         Ok(Sky {
-            shared: shared_group(device, queue, pack, &common.layouts, &buffer)?,
+            shared: shared_group(device, queue, pack, &context.layouts, &buffer)?,
             pack_bytes: Method::ALL.map(|method| bytes(method.clouds().role())),
             step: step(config.target_format),
             dome: dome_step_deg.map(|step| dome_buffers(device, step)),
-            programs: [const { None }; Method::ALL.len()],
+            pipelines: [const { None }; Method::ALL.len()],
             #[cfg(feature = "sprites")]
             sprites: SpriteLayer::new(pack)?,
             prepared: None,
-            common,
+            context,
             buffer,
             pack_data,
         })
@@ -173,8 +173,8 @@ impl Sky {
             ..SkyParams::default()
         };
         #[cfg(feature = "sprites")]
-        self.sprites.fit(&self.common, &params);
-        fitting(&mut self.programs, &self.common, &params.dome());
+        self.sprites.ensure(&self.context, &params);
+        ensured(&mut self.pipelines, &self.context, &params.dome());
     }
 
     /// Whether the pack has what a method draws from.
@@ -192,9 +192,9 @@ impl Sky {
 
     /// Forgets what [`Method::Sprites`] keeps of earlier frames, its ring of impostors and the facing of sprites near the viewer: the next
     /// frame is drawn as a new sky would draw it. No other method keeps anything.
-    pub fn forget(&mut self) {
+    pub fn reset_history(&mut self) {
         #[cfg(feature = "sprites")]
-        self.sprites.forget();
+        self.sprites.reset_history();
     }
 
     /// Sprites that the prepared frame draws: on the screen, and into the ring of impostors.
@@ -213,7 +213,7 @@ impl Sky {
     /// pass in which the sky is drawn. `seconds` moves clouds and stars; any value will do.
     ///
     /// Nothing of a picture is remembered from frame to frame: the same arguments give the same picture, but with
-    /// [`Method::Sprites`], see [`Sky::forget`]. Submit the encoder before the next frame is prepared.
+    /// [`Method::Sprites`], see [`Sky::reset_history`]. Submit the encoder before the next frame is prepared.
     pub fn prepare(
         &mut self,
         queue: &wgpu::Queue,
@@ -222,14 +222,16 @@ impl Sky {
         camera: &Camera,
         seconds: f64,
     ) {
-        let whole = params.clamped();
-        let params = whole.dome();
-        let uniforms = self.pack_data.uniforms(&whole, camera, seconds, self.step);
+        let clamped = params.clamped();
+        let params = clamped.dome();
+        let uniforms = self
+            .pack_data
+            .uniforms(&clamped, camera, seconds, self.step);
         let seconds = finite(seconds);
         #[cfg(feature = "sprites")]
-        let uniforms = self.record_sprites(queue, encoder, &whole, camera, seconds, uniforms);
+        let uniforms = self.record_sprites(queue, encoder, &clamped, camera, seconds, uniforms);
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&uniforms));
-        let program = fitting(&mut self.programs, &self.common, &params);
+        let program = ensured(&mut self.pipelines, &self.context, &params);
         if let Some(map) = &mut program.map {
             let frame = MapFrame {
                 params: &params,
@@ -243,11 +245,11 @@ impl Sky {
         #[cfg(feature = "weather")]
         let weather = overlays::shown(&uniforms.rays, &uniforms.rain);
         #[cfg(feature = "weather")]
-        program.record_weather(&self.common, weather, encoder, &self.shared);
+        program.record_weather(&self.context, weather, encoder, &self.shared);
         // A flash that is told is made ready for before it begins.
         #[cfg(feature = "weather")]
         if variant.weather || params.weather.lightning.strength > 0.0 {
-            program.fit_sky(&self.common, params.sky, true);
+            program.ensure_sky(&self.context, params.sky, true);
         }
         self.prepared = Some(Prepared {
             method: params.method,
@@ -279,8 +281,8 @@ impl Sky {
             screen: &{ uniforms.camera },
             look: &{ uniforms.sprites },
         };
-        let (common, shared) = (&self.common, &self.shared);
-        self.sprites.record(common, queue, encoder, shared, &frame);
+        let (context, shared) = (&self.context, &self.shared);
+        self.sprites.record(context, queue, encoder, shared, &frame);
         if uniforms.flares.strength > 0.0 {
             let sun = uniforms.sky.sun_direction;
             uniforms.flares.strength *= self.sprites.clear_towards_sun(&frame, sun);
@@ -350,8 +352,8 @@ impl Sky {
 
     /// Bytes of the textures that only this method reads: its own of the pack and, once they are made, those that it draws.
     pub fn memory_bytes(&self, method: Method) -> u64 {
-        let own = self.programs[method as usize].as_ref();
-        let drawn = own.map_or(0, Program::bytes);
+        let own = self.pipelines[method as usize].as_ref();
+        let drawn = own.map_or(0, MethodPipelines::bytes);
         #[cfg(feature = "sprites")]
         let drawn = match method {
             Method::Sprites => drawn + self.sprites.bytes(),
@@ -360,21 +362,21 @@ impl Sky {
         self.pack_bytes[method as usize] + drawn
     }
 
-    fn current(&self) -> Option<(Prepared, &Program)> {
+    fn current(&self) -> Option<(Prepared, &MethodPipelines)> {
         let prepared = self.prepared?;
-        Some((prepared, self.programs[prepared.method as usize].as_ref()?))
+        Some((prepared, self.pipelines[prepared.method as usize].as_ref()?))
     }
 }
 
 /// The program of the parameters' method, with what they need.
-fn fitting<'a>(
-    programs: &'a mut [Option<Program>; Method::ALL.len()],
-    common: &Common,
+fn ensured<'a>(
+    pipelines: &'a mut [Option<MethodPipelines>; Method::ALL.len()],
+    context: &Context,
     params: &SkyParams,
-) -> &'a mut Program {
-    let new = || Program::new(common, params);
-    let program = programs[params.method as usize].get_or_insert_with(new);
-    program.fit(common, params);
+) -> &'a mut MethodPipelines {
+    let new = || MethodPipelines::new(context, params);
+    let program = pipelines[params.method as usize].get_or_insert_with(new);
+    program.ensure(context, params);
     program
 }
 

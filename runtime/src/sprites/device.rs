@@ -2,7 +2,7 @@
 
 use wgpu::util::DeviceExt;
 
-use super::instances::{A_ROW, Instance};
+use super::instances::{INSTANCES_PER_ROW, Instance};
 use super::outline;
 use super::pipelines::{GroupLayouts, STRIDE, SpriteBlock, one_of};
 use super::scene::{AMOUNTS_SIDE, Draw, Scene};
@@ -74,7 +74,7 @@ pub fn amounts_texture(device: &wgpu::Device, rows: u32) -> wgpu::Texture {
 
 /// Rows of 256 sprites.
 pub fn instances_texture(device: &wgpu::Device, rows: u32) -> wgpu::Texture {
-    let size = [TEXELS * A_ROW, rows];
+    let size = [TEXELS * INSTANCES_PER_ROW, rows];
     table(device, "sprites", wgpu::TextureFormat::Rgba32Uint, size)
 }
 
@@ -91,12 +91,12 @@ pub fn upload(queue: &wgpu::Queue, texture: &wgpu::Texture, row: u32, sprites: &
         bytemuck::cast_slice(sprites),
         wgpu::TexelCopyBufferLayout {
             offset: 0,
-            bytes_per_row: Some(A_ROW * size_of::<Instance>() as u32),
+            bytes_per_row: Some(INSTANCES_PER_ROW * size_of::<Instance>() as u32),
             rows_per_image: None,
         },
         wgpu::Extent3d {
-            width: TEXELS * A_ROW,
-            height: sprites.len() as u32 / A_ROW,
+            width: TEXELS * INSTANCES_PER_ROW,
+            height: sprites.len() as u32 / INSTANCES_PER_ROW,
             depth_or_array_layers: 1,
         },
     );
@@ -104,7 +104,7 @@ pub fn upload(queue: &wgpu::Queue, texture: &wgpu::Texture, row: u32, sprites: &
 
 /// Triangles of as many outlines and boxes as a slot has room for.
 pub fn index_buffers(device: &wgpu::Device, scene: &Scene) -> [wgpu::Buffer; 2] {
-    let room = scene.rows_a_slot() * A_ROW;
+    let room = scene.rows_a_slot() * INSTANCES_PER_ROW;
     let outlines = outline::indices(room, outline::STRIP);
     let boxes = outline::indices(room, outline::BOX_STRIP);
     [outlines, boxes].map(|indices| {

@@ -44,7 +44,7 @@ pub const MOST_HALF_SIZE_M: f32 = 8192.0;
 pub const MOST_AWAY_M: f32 = 16_384.0;
 
 /// Sprites in a row of the texture, four texels each.
-pub const A_ROW: u32 = 256;
+pub const INSTANCES_PER_ROW: u32 = 256;
 
 impl Instance {
     /// Its middle in its block, in metres.

@@ -6,7 +6,7 @@ use welkin_pack::{Field, Pack, Role};
 use super::frame::Frame;
 use super::outline::{Outline, outlines};
 use super::pass::Pass;
-use crate::device::common::Common;
+use crate::device::context::Context;
 use crate::error::{SkyError, texture};
 use crate::params::{Method, SkyModel, SkyParams};
 
@@ -40,16 +40,16 @@ impl SpriteLayer {
     }
 
     /// Makes what draws them, if the parameters want them and pack and target allow them.
-    pub fn fit(&mut self, common: &Common, params: &SkyParams) {
-        let (Some(field), Some(atlas)) = (&self.field, common.own_texture(Method::Sprites)) else {
+    pub fn ensure(&mut self, context: &Context, params: &SkyParams) {
+        let (Some(field), Some(atlas)) = (&self.field, context.own_texture(Method::Sprites)) else {
             return;
         };
-        if params.method != Method::Sprites || !common.blends {
+        if params.method != Method::Sprites || !context.blends {
             return;
         }
         let new = || {
             Pass::new(
-                common,
+                context,
                 atlas,
                 field,
                 &self.outlines,
@@ -57,26 +57,26 @@ impl SpriteLayer {
             )
         };
         let pass = self.pass.get_or_insert_with(|| new().into());
-        pass.load(common, params.sky);
+        pass.load(context, params.sky);
     }
 
     /// Computes a frame and records the pictures of the ring that it draws. Parameters are in range.
     pub fn record(
         &mut self,
-        common: &Common,
+        context: &Context,
         queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
         shared: &wgpu::BindGroup,
         frame: &Frame<'_>,
     ) {
-        self.fit(common, frame.params);
+        self.ensure(context, frame.params);
         let wanted = self
             .pass
             .as_mut()
             .filter(|_| frame.params.method == Method::Sprites);
         self.is_shown = wanted.is_some();
         if let Some(pass) = wanted {
-            pass.record(common, queue, encoder, shared, frame);
+            pass.record(context, queue, encoder, shared, frame);
         }
     }
 
@@ -94,9 +94,9 @@ impl SpriteLayer {
     }
 
     /// Forgets what it knows of earlier frames: the next one is as that of a new sky.
-    pub fn forget(&mut self) {
+    pub fn reset_history(&mut self) {
         if let Some(pass) = &mut self.pass {
-            pass.forget();
+            pass.reset_history();
         }
     }
 

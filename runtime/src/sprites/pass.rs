@@ -12,13 +12,13 @@ use super::device::{
 };
 use super::frame::{Frame, screen_view, station};
 use super::grid::{BlockId, around, slots_a_side};
-use super::instances::{A_ROW, Instance};
+use super::instances::{INSTANCES_PER_ROW, Instance};
 use super::outline::{self, Outline};
 use super::pipelines::{GroupLayouts, Pipelines, STRIDE};
 use super::ring::{Ring, Step};
 use super::scene::{AMOUNTS_SIDE, Draw, Scene, planes};
 use super::station::{self, RingUniforms, SpriteView};
-use crate::device::common::{Common, Dome};
+use crate::device::context::{Context, Dome};
 use crate::params::{Method, SkyModel};
 
 /// Views of a frame: the screen's and the ring's pictures'.
@@ -59,13 +59,13 @@ pub(crate) struct Pass {
 impl Pass {
     /// A field on a device, with its sheet of pictures, seen that far.
     pub fn new(
-        common: &Common,
+        context: &Context,
         sheet: &wgpu::Texture,
         field: &Field,
         outlines: &[Outline],
         distance_m: f32,
     ) -> Pass {
-        let device = &common.device;
+        let device = &context.device;
         let mut scene = Scene::new(field);
         let distance = scene.sight_m(distance_m, device.limits().max_texture_dimension_2d);
         scene.fit(distance);
@@ -110,7 +110,7 @@ impl Pass {
     }
 
     /// Makes the pipelines of a sky model if they are not there yet.
-    pub fn load(&mut self, common: &Common, sky: SkyModel) {
+    pub fn load(&mut self, context: &Context, sky: SkyModel) {
         let groups = &self.groups;
         self.pipelines[sky as usize].get_or_insert_with(|| {
             let dome = Dome {
@@ -118,21 +118,21 @@ impl Pass {
                 sky,
                 weather: false,
             };
-            let module = common.module(dome);
-            Pipelines::new(common, &module, groups)
+            let module = context.module(dome);
+            Pipelines::new(context, &module, groups)
         });
     }
 
     /// Computes a frame and records the pictures of the ring that it draws. Parameters are in range.
     pub fn record(
         &mut self,
-        common: &Common,
+        context: &Context,
         queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
         shared: &wgpu::BindGroup,
         frame: &Frame<'_>,
     ) {
-        let (device, sheet) = (&common.device, &self.sheet.clone());
+        let (device, sheet) = (&context.device, &self.sheet.clone());
         let asked = frame.params.sprites.distance_m;
         let sight_m = self
             .scene
@@ -145,12 +145,12 @@ impl Pass {
             write_amounts(queue, &self.amounts, &self.scene.amounts);
         }
         self.scene.lock(viewer_m);
-        let screen = screen_view(common.config.depth, frame, sheet);
+        let screen = screen_view(context.config.depth, frame, sheet);
         queue.write_buffer(&self.views, 0, bytemuck::bytes_of(&screen));
         self.blocks.bytes.clear();
         self.draws.clear();
         let now = station(frame, viewer_m, sight_m, self.scene.heights_m);
-        self.step_ring(common, now);
+        self.step_ring(context, now);
         let pictures = self.gather_pictures(queue, sheet, frame);
         self.gather_screen(queue, &screen, frame, sight_m);
         queue.write_buffer(&self.blocks.buffer, 0, &self.blocks.bytes);
@@ -174,9 +174,9 @@ impl Pass {
     }
 
     /// Forgets what it knows of earlier frames: the next one is as that of a new sky.
-    pub fn forget(&mut self) {
+    pub fn reset_history(&mut self) {
         self.ring = None;
-        self.scene.forget();
+        self.scene.reset_history();
     }
 
     /// Share of the sun's light that comes through to the viewer.
@@ -204,7 +204,7 @@ impl Pass {
         let [outlines, boxes] = &self.indices;
         let buffers = [&self.views, &self.blocks.buffer, outlines, boxes];
         buffers.iter().map(|b| b.size()).sum::<u64>()
-            + u64::from(self.instances.height() * A_ROW) * size_of::<Instance>() as u64
+            + u64::from(self.instances.height() * INSTANCES_PER_ROW) * size_of::<Instance>() as u64
             + self.scene.amounts.len() as u64
             + self.ring_bytes()
     }

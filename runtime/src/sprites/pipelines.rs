@@ -6,8 +6,8 @@ use welkin_pack::SheetCell;
 use super::outline::Outline;
 use super::station::{self, RingUniforms, SpriteView};
 use super::{formation, instances, locks};
-use crate::device::common::Common;
 use crate::device::config::Output;
+use crate::device::context::Context;
 use crate::device::layouts::{entry, texture, vertex_state};
 use crate::device::map::target;
 use crate::device::pipeline::{depth_state, multisample_state};
@@ -26,7 +26,7 @@ pub const PART: Part = Part {
             Value::F32(instances::MOST_HALF_SIZE_M),
         ),
         ("SPRITE_MOST_AWAY", Value::F32(instances::MOST_AWAY_M)),
-        ("SPRITES_A_ROW", Value::U32(instances::A_ROW)),
+        ("SPRITES_A_ROW", Value::U32(instances::INSTANCES_PER_ROW)),
         ("SPRITE_FIRST_STAGE", Value::F32(formation::FIRST_STAGE)),
         ("SPRITE_LOCK", Value::F32(locks::LOCK)),
         ("SPRITE_NEAR", Value::F32(locks::NEAR)),
@@ -171,13 +171,13 @@ pub(crate) fn pictures(device: &wgpu::Device, output: Output) -> wgpu::Texture {
 
 impl Pipelines {
     /// Makes them for a composed shader.
-    pub fn new(common: &Common, module: &wgpu::ShaderModule, groups: &GroupLayouts) -> Pipelines {
-        let device = &common.device;
+    pub fn new(context: &Context, module: &wgpu::ShaderModule, groups: &GroupLayouts) -> Pipelines {
+        let device = &context.device;
         let layout =
-            |own: &wgpu::BindGroupLayout| common.layouts.pipeline_layout(device, Some(own));
+            |own: &wgpu::BindGroupLayout| context.layouts.pipeline_layout(device, Some(own));
         let (sprites, ring) = (layout(&groups.sprites), layout(&groups.ring));
-        let screen = common.config.target_format;
-        let make = |draw: Draw<'_>| pipeline(common, module, draw);
+        let screen = context.config.target_format;
+        let make = |draw: Draw<'_>| pipeline(context, module, draw);
         Pipelines {
             sprites: make(Draw {
                 layout: &sprites,
@@ -189,7 +189,7 @@ impl Pipelines {
             picture: make(Draw {
                 layout: &sprites,
                 entries: ["vs_ring_sprite", "fs_sprite"],
-                format: picture_format(common.build.output),
+                format: picture_format(context.build.output),
                 on_screen: false,
                 topology: wgpu::PrimitiveTopology::TriangleList,
             }),
@@ -213,11 +213,15 @@ struct Draw<'a> {
     topology: wgpu::PrimitiveTopology,
 }
 
-fn pipeline(common: &Common, module: &wgpu::ShaderModule, draw: Draw<'_>) -> wgpu::RenderPipeline {
-    let config = &common.config;
+fn pipeline(
+    context: &Context,
+    module: &wgpu::ShaderModule,
+    draw: Draw<'_>,
+) -> wgpu::RenderPipeline {
+    let config = &context.config;
     let [vertex, fragment] = draw.entries;
     let alpha = if draw.on_screen { KEEP } else { OVER };
-    common
+    context
         .device
         .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(fragment),

@@ -8,7 +8,7 @@ use welkin_pack::Field;
 use welkin_pack::field::SECTION_SIDE_M;
 
 use super::grid::{BlockId, around, slots_a_side};
-use super::instances::{A_ROW, Instance, Section, sections};
+use super::instances::{INSTANCES_PER_ROW, Instance, Section, sections};
 use super::locks::Locks;
 use super::order::{Order, Station};
 use super::{formation, outline};
@@ -80,8 +80,10 @@ impl Scene {
         let heights = sections.iter().filter_map(|section| section.heights_m);
         let heights = heights.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
         let most = sections.iter().map(|s| s.instances.len()).max();
-        let rows_a_slot = (most.unwrap_or(0) as u32).div_ceil(A_ROW).max(1);
-        let most = (rows_a_slot * A_ROW) as usize;
+        let rows_a_slot = (most.unwrap_or(0) as u32)
+            .div_ceil(INSTANCES_PER_ROW)
+            .max(1);
+        let most = (rows_a_slot * INSTANCES_PER_ROW) as usize;
         Scene {
             a_side: field.sections.max(1) as usize,
             ranks: field.clouds.iter().map(|cloud| cloud.rank).collect(),
@@ -171,7 +173,7 @@ impl Scene {
     }
 
     /// Forgets what it knows of earlier frames.
-    pub fn forget(&mut self) {
+    pub fn reset_history(&mut self) {
         self.locks.clear();
         self.slots.iter_mut().for_each(|slot| slot.stale = true);
     }
@@ -199,7 +201,7 @@ impl Scene {
         if self.slots[slot].holds != wanted || self.slots[slot].stale {
             self.stage(block, station, billboards_m);
             let count = self.staging.len();
-            let whole_rows = count.next_multiple_of(A_ROW as usize);
+            let whole_rows = count.next_multiple_of(INSTANCES_PER_ROW as usize);
             self.staging.resize(whole_rows, Instance::default());
             upload(slot as u32 * self.rows_a_slot, &self.staging);
             self.slots[slot] = Slot {
@@ -214,7 +216,7 @@ impl Scene {
         let distance_m = block.distance_of_middle_m(viewpoint_m);
         let is_far = distance_m > f64::from(outline::BOXES_BEYOND_M);
         (count > 0).then(|| Draw {
-            first: slot as u32 * self.rows_a_slot * A_ROW,
+            first: slot as u32 * self.rows_a_slot * INSTANCES_PER_ROW,
             count,
             origin: origin.as_vec3(),
             opacity: share,

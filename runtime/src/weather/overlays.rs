@@ -2,7 +2,7 @@
 
 use super::rain::{RainUniforms, vertices};
 use super::rays::{self, RayUniforms};
-use crate::device::common::{Common, Dome};
+use crate::device::context::{Context, Dome};
 use crate::device::pipeline::Overlay;
 use crate::params::{Method, SkyModel};
 
@@ -35,14 +35,14 @@ impl Overlays {
     /// Records what a frame shows, if the target can show it; `own` is layout and group 1 of the dome, if it has one.
     pub fn record(
         &mut self,
-        common: &Common,
+        context: &Context,
         method: Method,
         shown: Shown,
         encoder: &mut wgpu::CommandEncoder,
         shared: &wgpu::BindGroup,
         own: Option<(&wgpu::BindGroupLayout, &wgpu::BindGroup)>,
     ) {
-        if !common.blends || (!shown.rays && shown.rain == 0) {
+        if !context.blends || (!shown.rays && shown.rain == 0) {
             return;
         }
         // Clear sky is not asked for.
@@ -51,15 +51,15 @@ impl Overlays {
             sky: SkyModel::Gradient,
             weather: true,
         };
-        let module = self.module.get_or_insert_with(|| common.module(dome));
+        let module = self.module.get_or_insert_with(|| context.module(dome));
         if shown.rain > 0 {
-            let new = || common.overlay(module, None, &Overlay::RAIN);
+            let new = || context.overlay(module, None, &Overlay::RAIN);
             self.rain.get_or_insert_with(new);
         }
         if shown.rays {
-            let (device, layouts) = (&common.device, &common.layouts);
+            let (device, layouts) = (&context.device, &context.layouts);
             let new = || {
-                let overlay = common.overlay(module, Some(&layouts.texture), &Overlay::RAYS);
+                let overlay = context.overlay(module, Some(&layouts.texture), &Overlay::RAYS);
                 rays::Pass::new(device, module, layouts, own.map(|own| own.0), overlay)
             };
             let pass = self.rays.get_or_insert_with(new);

@@ -18,7 +18,7 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 const SIZE: [u32; 2] = [96, 54];
 const SECONDS: f64 = 30.0;
 
-fn usual(method: Method) -> SkyParams {
+fn defaults(method: Method) -> SkyParams {
     SkyParams {
         method,
         flare: 0.0,
@@ -71,20 +71,20 @@ fn allowed(twin: &Twin, params: &SkyParams, are_alike: bool) -> Vec<Vec3> {
 
 #[test]
 fn every_method_draws_the_same() {
-    let mut frames: Vec<_> = Method::ALL.map(|m| (m.name(), usual(m))).to_vec();
+    let mut frames: Vec<_> = Method::ALL.map(|m| (m.name(), defaults(m))).to_vec();
     let octaves = |count| SkyParams {
         octaves: OctaveParams {
             count,
             ..OctaveParams::default()
         },
-        ..usual(Method::Octaves)
+        ..defaults(Method::Octaves)
     };
     // Back from six: what was made for seven layers or for two may serve again.
     frames.extend([1, 6, 7, 2].map(|count| ("octaves_in_other_numbers", octaves(count))));
     let layers = LayerKind::ALL.map(|kind| LitLayer::of(kind, 0.5)).repeat(2);
     let six = SkyParams {
         lit: LitParams::with_layers(&layers),
-        ..usual(Method::Lit)
+        ..defaults(Method::Lit)
     };
     frames.push(("lit_of_six_layers", six));
     assert_same_pictures(pack::default_pack(), &frames);
@@ -93,7 +93,7 @@ fn every_method_draws_the_same() {
 #[test]
 fn fbm_of_one_octave_and_of_six_draws_the_same() {
     for count in [1, 6] {
-        let frames = [("fbm_of_other_octaves", usual(Method::Fbm))];
+        let frames = [("fbm_of_other_octaves", defaults(Method::Fbm))];
         assert_same_pictures(&pack::with_octaves(count), &frames);
     }
 }
@@ -107,7 +107,7 @@ fn a_slightly_different_sky_is_told_apart() {
     let twin = Twin::new(pack);
     let are_alike = gpus.iter().all(|gpu| gpu.is_llvmpipe);
     for method in Method::ALL {
-        let params = usual(method);
+        let params = defaults(method);
         let cover = params.cover + 0.05;
         let both = [params, SkyParams { cover, ..params }];
         let [vulkan, gl] = [0, 1].map(|i: usize| {

@@ -86,25 +86,31 @@ fn octaves(octaves: OctaveParams, seconds: f64) -> (SkyParams, f64) {
 
 #[test]
 fn octaves_in_any_number() {
-    let usual = OctaveParams::default();
+    let defaults = OctaveParams::default();
     let cases: Vec<_> = (1..=8)
-        .map(|count| octaves(OctaveParams { count, ..usual }, 7.0 * f64::from(count)))
+        .map(|count| octaves(OctaveParams { count, ..defaults }, 7.0 * f64::from(count)))
         .collect();
     assert_maps_agree(pack::default_pack(), &cases);
 }
 
 #[test]
 fn octaves_at_any_moment_cover_and_sharpness() {
-    let usual = OctaveParams::default();
+    let defaults = OctaveParams::default();
     let mut cases = Vec::new();
     for seconds in [0.0, 29.9, 59.999, 60.0, 1e6, -5.0] {
-        cases.push(octaves(usual, seconds));
+        cases.push(octaves(defaults, seconds));
     }
     for sharpness in [0.0, 0.1] {
-        cases.push(octaves(OctaveParams { sharpness, ..usual }, 3.0));
+        cases.push(octaves(
+            OctaveParams {
+                sharpness,
+                ..defaults
+            },
+            3.0,
+        ));
     }
     for cover in [0.0, 0.2, 0.9, 1.0] {
-        let (params, seconds) = octaves(usual, 44.0);
+        let (params, seconds) = octaves(defaults, 44.0);
         cases.push((
             SkyParams {
                 cover,

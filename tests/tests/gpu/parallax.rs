@@ -104,7 +104,7 @@ fn assert_shifts(params: &SkyParams, end: Moment, heights: Vec2) {
     );
 }
 
-fn usual(method: Method) -> SkyParams {
+fn defaults(method: Method) -> SkyParams {
     SkyParams {
         method,
         sun: false,
@@ -126,7 +126,7 @@ fn each_dome_of_the_octaves_moves_by_its_own_height() {
                 domes,
                 ..OctaveParams::default()
             },
-            ..usual(Method::Octaves)
+            ..defaults(Method::Octaves)
         };
         // The same walk moves higher clouds less; one as much longer as they are higher moves them as far.
         assert_moves(&params, view(), height_m, WALK_M);
@@ -148,13 +148,13 @@ const LIT_WALK_HEIGHTS: Vec2 = Vec2::new(0.145, -0.122);
 
 /// The default layers of the lit method alone, their heights in metres and their velocities.
 fn layers() -> impl Iterator<Item = (SkyParams, f64, Vec2)> {
-    let mut usual = usual(Method::Lit);
+    let mut defaults = defaults(Method::Lit);
     // Light scattered forwards stays where it is.
-    usual.lit.k2 = 0.0;
-    let shown = usual.lit.layers.iter().filter(|layer| layer.share > 0.0);
+    defaults.lit.k2 = 0.0;
+    let shown = defaults.lit.layers.iter().filter(|layer| layer.share > 0.0);
     let count = shown.count();
     (0..count).map(move |index| {
-        let mut params = usual;
+        let mut params = defaults;
         for (other, layer) in params.lit.layers.iter_mut().enumerate() {
             layer.share = if other == index { 1.0 } else { 0.0 };
             // Of streaks one does not see how far they go along themselves.
@@ -194,7 +194,7 @@ fn each_layer_of_lit_goes_its_own_way() {
 #[test]
 fn the_other_methods_float_as_low_clouds() {
     for method in [Method::Packed, Method::Fbm] {
-        assert_moves(&usual(method), view(), LOW_HEIGHT_M, WALK_M);
+        assert_moves(&defaults(method), view(), LOW_HEIGHT_M, WALK_M);
     }
 }
 
@@ -217,7 +217,7 @@ fn halved(picture: &[f32]) -> Vec<f32> {
 fn who_climbs_comes_nearer() {
     let mut sky = gpu::sky(&pack::in_skybox(0.0), FORMAT);
     for method in Method::DOMES {
-        let mut params = usual(method);
+        let mut params = defaults(method);
         params.octaves.domes = [1.0, 0.0, 0.0];
         params.lit = LitParams::with_layers(&params.lit.layers[..1]);
         if method == Method::Lit {
@@ -263,7 +263,7 @@ fn a_place_that_is_no_number_is_the_origin() {
         let mut at = |x: f32| {
             let mut view = view();
             view.position_m.x = x;
-            gpu::render(&mut sky, FORMAT, &usual(method), &view, 40.0)
+            gpu::render(&mut sky, FORMAT, &defaults(method), &view, 40.0)
         };
         let (broken, origin) = (at(f32::NAN), at(0.0));
         assert!(broken == origin, "{}", method.name());
@@ -291,7 +291,7 @@ fn nothing_jumps_where_a_tile_begins_anew() {
     for method in Method::DOMES {
         let params = SkyParams {
             cover: 0.7,
-            ..usual(method)
+            ..defaults(method)
         };
         // Tiles have some kilometres, so within twenty an offset begins anew: it is bracketed, then halved to a tenth of a metre.
         let wraps = |a: f64, b: f64| (offset(&params, a) - offset(&params, b)).abs() > 0.5;

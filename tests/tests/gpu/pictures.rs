@@ -17,7 +17,7 @@ const SECONDS: f64 = 30.0;
 
 /// Name, parameters, azimuth and elevation of the view in degrees.
 fn pictures(method: Method) -> [(String, SkyParams, Camera); 3] {
-    let usual = SkyParams {
+    let defaults = SkyParams {
         method,
         flare: 0.0,
         dither: false,
@@ -26,14 +26,14 @@ fn pictures(method: Method) -> [(String, SkyParams, Camera); 3] {
     let sunset = SkyParams {
         time: 0.742,
         sunset: 1.0,
-        ..usual
+        ..defaults
     };
     let storm = SkyParams {
         cover: 0.9,
         density: 0.9,
         time: 0.42,
         fbm: FbmParams::STORMY,
-        ..usual
+        ..defaults
     };
     let view = |azimuth: f32, elevation: f32| {
         Camera::looking(azimuth.to_radians(), elevation.to_radians(), 1.05, SIZE)
@@ -41,14 +41,14 @@ fn pictures(method: Method) -> [(String, SkyParams, Camera); 3] {
     let name = |name: &str| format!("{}-{name}", method.name());
     let moonlit = SkyParams {
         time: 0.93,
-        ..usual
+        ..defaults
     };
     let last = match method {
         Method::Lit | Method::Sprites => (name("moonlit"), moonlit, view(120.0, 30.0)),
         _ => (name("storm"), storm, view(160.0, 25.0)),
     };
     [
-        (name("noon"), usual, view(90.0, 28.0)),
+        (name("noon"), defaults, view(90.0, 28.0)),
         (name("sunset"), sunset, view(270.0, 20.0)),
         last,
     ]

@@ -154,8 +154,8 @@ fn other_layers_and_back_are_the_same_sky() {
 fn what_another_method_is_told_changes_nothing() {
     let mut sky = gpu::sky(pack::default_pack(), FORMAT);
     for method in Method::ALL {
-        let usual = params(method, 3000.0);
-        let mut other = usual;
+        let defaults = params(method, 3000.0);
+        let mut other = defaults;
         if method != Method::Octaves {
             other.octaves.sharpness = 0.5;
             other.octaves.count = 2;
@@ -175,7 +175,7 @@ fn what_another_method_is_told_changes_nothing() {
             other.lit = LitParams::with_layers(&layers);
             other.lit.moon = 0.0;
         }
-        let [a, b] = [usual, other].map(|p| gpu::render(&mut sky, FORMAT, &p, &view(1.0), 1.0));
+        let [a, b] = [defaults, other].map(|p| gpu::render(&mut sky, FORMAT, &p, &view(1.0), 1.0));
         assert_same(&a, &b, method.name());
     }
 }

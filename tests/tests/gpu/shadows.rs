@@ -232,19 +232,19 @@ fn shadows_stay_where_they_are_as_the_viewer_walks_and_climbs() {
         gpu::prepare(&mut sky, &params, &camera, 9.0);
         Shadows::of(&sky)
     };
-    let usual = from(Vec3::ZERO, 1.0);
+    let defaults = from(Vec3::ZERO, 1.0);
     for (place_m, fov_y_rad) in [
         (Vec3::new(61.0, 0.0, -1234.5), 1.0),
         (Vec3::new(0.0, 900.0, 0.0), 0.2),
         (Vec3::new(-300.0, 20_000.0, 40.0), 2.0),
     ] {
         let other = from(place_m, fov_y_rad);
-        let moved = (other.centre_m - usual.centre_m) / 25.0;
+        let moved = (other.centre_m - defaults.centre_m) / 25.0;
         assert_eq!(moved, moved.round(), "whole texels");
         let [dx, dy] = moved.as_ivec2().to_array();
         for y in 60..190 {
             for x in 60..190 {
-                let here = usual.at([x as u32, y as u32]);
+                let here = defaults.at([x as u32, y as u32]);
                 let there = other.at([(x - dx) as u32, (y - dy) as u32]);
                 // Reads of three layers, whose places are rounded another way.
                 assert!(

@@ -167,13 +167,13 @@ fn strength_and_cover_mix_the_picture_with_the_computed_sky() {
 #[test]
 fn no_cover_shows_the_computed_sky() {
     let empty = pack::with_skybox(16, |_| [0.0; 4]);
-    let [mut empty, mut usual] = [&empty, pack::default_pack()].map(sky);
+    let [mut empty, mut defaults] = [&empty, pack::default_pack()].map(sky);
     for (name, view) in views([32, 32]).into_iter().take(8) {
         let params = SkyParams {
             cover: 0.5,
             ..SkyParams::default()
         };
-        let computed = draw(&mut usual, &params, &view, 7.0);
+        let computed = draw(&mut defaults, &params, &view, 7.0);
         assert_eq!(draw(&mut empty, &params, &view, 7.0), computed, "{name}");
     }
 }

@@ -46,19 +46,19 @@ pub struct Scene {
 
 /// The rows of a method; the ring is of sprites alone.
 pub fn scenes(method: Method, ring_radius_m: f32) -> Vec<Scene> {
-    let usual = SkyParams {
+    let defaults = SkyParams {
         method,
         ..SkyParams::default()
     };
     let perez = SkyParams {
         sky: SkyModel::Perez,
-        ..usual
+        ..defaults
     };
     let mut scenes = vec![
-        scene("noon", usual, SOUTH_DEG),
-        scene("sunset", sunset(usual), WEST_DEG),
-        scene("night", night(usual), SOUTH_DEG),
-        scene("alone", alone(usual), SOUTH_DEG),
+        scene("noon", defaults, SOUTH_DEG),
+        scene("sunset", sunset(defaults), WEST_DEG),
+        scene("night", night(defaults), SOUTH_DEG),
+        scene("alone", alone(defaults), SOUTH_DEG),
     ];
     // What is behind the clouds is the same for every method.
     if method == Method::Packed {
@@ -69,15 +69,22 @@ pub fn scenes(method: Method, ring_radius_m: f32) -> Vec<Scene> {
             let label = format!("alone, {count} octave{}", if count == 1 { "" } else { "s" });
             let octaves = OctaveParams {
                 count,
-                ..usual.octaves
+                ..defaults.octaves
             };
-            scene(&label, alone(SkyParams { octaves, ..usual }), SOUTH_DEG)
+            scene(
+                &label,
+                alone(SkyParams {
+                    octaves,
+                    ..defaults
+                }),
+                SOUTH_DEG,
+            )
         })),
         Method::Fbm => scenes.push(Scene {
             sun_moves: true,
-            ..scene("alone, sun moves", alone(usual), SOUTH_DEG)
+            ..scene("alone, sun moves", alone(defaults), SOUTH_DEG)
         }),
-        Method::Lit => scenes.extend(scenes_of_lit(usual)),
+        Method::Lit => scenes.extend(scenes_of_lit(defaults)),
         Method::Sprites => {
             let scenes = |of| scenes_of_sprites(of, ring_radius_m);
             return SpriteScene::ALL.into_iter().flat_map(scenes).collect();
@@ -122,7 +129,7 @@ impl SpriteScene {
 
 /// The dome without clouds; sprites alone; with the ring; and with a ring that is always being made anew.
 pub fn scenes_of_sprites(of: SpriteScene, ring: f32) -> [Scene; 4] {
-    let usual = SkyParams {
+    let defaults = SkyParams {
         method: Method::Sprites,
         cover: of.cover(),
         flare: 0.0,
@@ -134,9 +141,9 @@ pub fn scenes_of_sprites(of: SpriteScene, ring: f32) -> [Scene; 4] {
             ring_radius_m,
             // Every sprite, however far: what is timed is how many there are.
             billboards_beyond_m: MOST_DISTANCE_M,
-            ..usual.sprites
+            ..defaults.sprites
         },
-        ..usual
+        ..defaults
     };
     let among = |label: &str, ring_radius_m: f32, jump_m: f32| Scene {
         elevation_deg: SPRITE_ELEVATION_DEG,
@@ -175,22 +182,22 @@ const SPRITE_ELEVATION_DEG: f32 = 0.0;
 const SPRITE_HEIGHT_M: f32 = 300.0;
 
 /// What an iteration of layers costs, and what else only this method or the weather draws.
-fn scenes_of_lit(usual: SkyParams) -> Vec<Scene> {
+fn scenes_of_lit(defaults: SkyParams) -> Vec<Scene> {
     let with_layers = |count: usize| SkyParams {
         lit: LitParams::with_layers(&vec![LitLayer::of(LayerKind::Stratocumulus, 1.0); count]),
-        ..usual
+        ..defaults
     };
     let shadow = SkyParams {
         shadow_extent_m: SHADOW_EXTENT_M,
-        ..usual
+        ..defaults
     };
     let weather = |rays, rain| SkyParams {
         weather: WeatherParams {
             rays,
             rain,
-            ..usual.weather
+            ..defaults.weather
         },
-        ..usual
+        ..defaults
     };
     vec![
         scene("alone, 1 layer", alone(with_layers(1)), SOUTH_DEG),
@@ -204,16 +211,16 @@ fn scenes_of_lit(usual: SkyParams) -> Vec<Scene> {
 /// What the protocol of Mukhina and Bezgodov draws: three layers before the sky of Perez, as in their paper, and the clouds'
 /// shadow on the ground. Their time of day is not told; noon is the plainest, and where the light differs follows.
 pub fn scenes_of_mukhina() -> Vec<Scene> {
-    let usual = SkyParams {
+    let defaults = SkyParams {
         method: Method::Lit,
         sky: SkyModel::Perez,
         shadow_extent_m: SHADOW_EXTENT_M,
         ..SkyParams::default()
     };
     vec![
-        scene("noon", usual, SOUTH_DEG),
-        scene("low sun", sunset(usual), WEST_DEG),
-        scene("night", night(usual), SOUTH_DEG),
+        scene("noon", defaults, SOUTH_DEG),
+        scene("low sun", sunset(defaults), WEST_DEG),
+        scene("night", night(defaults), SOUTH_DEG),
     ]
 }
 

@@ -149,8 +149,8 @@ impl BenchArgs {
 
     /// Frames that are timed.
     pub fn frames(&self) -> u32 {
-        let usual = self.protocol.map_or(FRAMES, Protocol::frames);
-        self.frames.unwrap_or(usual)
+        let defaults = self.protocol.map_or(FRAMES, Protocol::frames);
+        self.frames.unwrap_or(defaults)
     }
 
     /// What a protocol sets cannot be set again.

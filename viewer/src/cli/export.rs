@@ -233,12 +233,12 @@ impl ExportArgs {
     }
 
     /// The format that was chosen for pictures, or the usual one.
-    fn picture(&self, usual: Format) -> Format {
+    fn picture(&self, defaults: Format) -> Format {
         match self.format {
             Some(FormatName::Png) => Format::Png,
             Some(FormatName::Exr) => Format::Exr,
             Some(FormatName::Hdr) => Format::Hdr,
-            Some(FormatName::Ktx2) | None => usual,
+            Some(FormatName::Ktx2) | None => defaults,
         }
     }
 }

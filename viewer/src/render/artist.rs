@@ -58,7 +58,7 @@ impl<'a> Artist<'a> {
     pub fn draw(&mut self, view: &View, file: &str) -> Result<Encoded> {
         let encoded = match self {
             Artist::Frame(stage, format) => {
-                stage.forget();
+                stage.reset_history();
                 encode(file, *format, &stage.draw(view)?)?
             }
             Artist::Equirect(sky, width, azimuth_rad, format) => {

@@ -180,7 +180,7 @@ mod tests {
             .rotate90()
             .save(&photo)
             .unwrap();
-        let usual = bake(&job(SMALL), &|| true, &|_, _| ()).unwrap().pack;
+        let defaults = bake(&job(SMALL), &|| true, &|_, _| ()).unwrap().pack;
         let place = folder.path().join("pack");
         let with = Job {
             photo: Some(photo),
@@ -196,7 +196,7 @@ mod tests {
                 .copied()
                 .collect::<Vec<_>>()
         };
-        assert_ne!(red(&baked.pack), red(&usual));
+        assert_ne!(red(&baked.pack), red(&defaults));
         assert_eq!(Pack::open(place).unwrap(), baked.pack);
     }
 }

@@ -106,8 +106,8 @@ impl State {
             Some(file) if file.exists() => read_settings(file)?,
             _ => Settings::default(),
         };
-        let text = |path: Option<&PathBuf>, usual: &str| {
-            path.map_or_else(|| usual.to_string(), |path| path.display().to_string())
+        let text = |path: Option<&PathBuf>, defaults: &str| {
+            path.map_or_else(|| defaults.to_string(), |path| path.display().to_string())
         };
         Ok(State {
             settings,

@@ -90,12 +90,12 @@ fn keys_choose_methods_and_weathers_and_turn_and_fly() {
 fn the_pointer_moves_every_slider_of_the_paper_and_turns_the_view() {
     let desktop = Desktop::new();
     let program = open(&desktop, &[pack().to_str().unwrap()]);
-    let usual = saved(&desktop, &program);
+    let defaults = saved(&desktop, &program);
     // A save is carried out after all that came before it was drawn.
     let seen = || assert_eq!(saved(&desktop, &program).rate, 0.0);
     // Down the panel, a drag along each row: those of the six must answer, in the paper's order.
     let mut moved: Vec<&str> = Vec::new();
-    let (mut before, mut row_px) = (usual, 60);
+    let (mut before, mut row_px) = (defaults, 60);
     while moved.len() < 6 && row_px < 260 {
         program.drag([125, row_px], [185, row_px], seen);
         let now = saved(&desktop, &program);

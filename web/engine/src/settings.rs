@@ -67,10 +67,10 @@ impl Engine {
     /// # Errors
     /// If there is no such setting.
     pub fn reset(&mut self, name: Option<String>) -> Result<(), JsError> {
-        let usual = Settings::default();
+        let defaults = Settings::default();
         match name {
-            Some(name) => self.settings.set(&name, &usual.get(&name)?)?,
-            None => (self.settings, self.blend) = (usual, None),
+            Some(name) => self.settings.set(&name, &defaults.get(&name)?)?,
+            None => (self.settings, self.blend) = (defaults, None),
         }
         Ok(())
     }

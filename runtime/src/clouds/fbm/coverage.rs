@@ -5,7 +5,7 @@ use welkin_pack::Texture;
 use super::map::{Octaves, weights};
 use super::{FULL, FbmUniforms};
 use crate::clouds::histogram::Histogram;
-use crate::clouds::shared::{before_roughening, before_smoothstep};
+use crate::clouds::shared::{inverse_roughen, inverse_smoothstep};
 
 /// The distribution of the weighted sum of a pack's octaves.
 pub(crate) fn sums(texture: &Texture) -> Histogram {
@@ -20,9 +20,9 @@ pub(crate) fn sums(texture: &Texture) -> Histogram {
 
 /// The share of places with more than this opacity.
 pub(crate) fn covered(sums: &Histogram, fbm: &FbmUniforms, opacity: f32) -> f32 {
-    let cover = FULL * before_smoothstep(opacity);
+    let cover = FULL * inverse_smoothstep(opacity);
     sums.mean(|finer| {
         let rough = 4.0 * fbm.roughness * (finer - fbm.mean);
-        sums.above((before_roughening(cover, rough) - fbm.intercept) / fbm.slope)
+        sums.above((inverse_roughen(cover, rough) - fbm.intercept) / fbm.slope)
     })
 }

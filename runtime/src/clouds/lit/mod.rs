@@ -36,7 +36,9 @@ use glam::{DMat2, DVec2, Vec2, Vec3, Vec3Swizzles};
 use welkin_pack::LayerKind;
 
 use crate::clear_sky::light::{Light, luminary};
-use crate::clouds::shared::{CloudUniforms, CloudView, OPAQUE, before_smoothstep, closing, offset};
+use crate::clouds::shared::{
+    CloudUniforms, CloudView, OPAQUE, closing, inverse_smoothstep, offset,
+};
 use crate::geometry::dome::{self, Hit, Mesh};
 use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
@@ -362,7 +364,7 @@ fn layer_uniforms(
 
 /// The amount from which there is cloud, such that the densest `cover` of the layer counts as covered.
 fn cut(cover: f32, steepness: f32, opacity: f32) -> f32 {
-    let thin = before_smoothstep(COVERED / opacity) / steepness;
+    let thin = inverse_smoothstep(COVERED / opacity) / steepness;
     // A trace of cover brings its thin edge in by degrees.
     let edge = thin * (cover / TRACE).min(1.0);
     1.0 - cover - edge - OVERCAST * smoothstep(SHUTTING, 1.0, cover)

@@ -2,7 +2,7 @@
 //! domes and the finer read are independent.
 
 use super::{EDGE, HIGH_OPACITY, MIDDLE_OPACITY, OctaveDome, OctaveUniforms, THIN};
-use crate::clouds::shared::{before_roughening, before_softening, behind, softened};
+use crate::clouds::shared::{behind, inverse_roughen, inverse_soften, softened};
 use crate::geometry::math::smoothstep;
 
 /// Points at which smooth functions are averaged or tabulated.
@@ -42,8 +42,8 @@ pub(crate) fn covered(octaves: &OctaveUniforms, opacity: f32) -> f32 {
 /// The share of the low dome with more than this opacity, averaged over the finer read.
 fn low_dome(octaves: &OctaveUniforms, opacity: f32) -> f32 {
     let above = |finer: f32| {
-        let alpha = before_roughening(opacity, octaves.roughness * finer);
-        let full = before_softening(alpha, EDGE).min(1.0);
+        let alpha = inverse_roughen(opacity, octaves.roughness * finer);
+        let full = inverse_soften(alpha, EDGE).min(1.0);
         // At sharpness 0 there is no cloud however thick.
         let thickness = (1.0 - full).log2() / octaves.exponent.min(-1e-6);
         1.0 - (octaves.low.threshold + thickness).clamp(0.0, 1.0)

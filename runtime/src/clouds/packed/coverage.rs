@@ -5,7 +5,7 @@ use welkin_pack::Image;
 
 use super::{EDGE, PackedUniforms, UPPER_OPACITY, UPPER_THRESHOLD};
 use crate::clouds::histogram::Histogram;
-use crate::clouds::shared::{before_softening, behind};
+use crate::clouds::shared::{behind, inverse_soften};
 use crate::geometry::math::smoothstep;
 
 /// How the texels of the packed texture are distributed.
@@ -38,7 +38,7 @@ impl Texels {
                 return 1.0;
             }
             let alpha =
-                before_softening(opacity, EDGE) / (packed.contrast * (1.0 + 2.0 * packed.density));
+                inverse_soften(opacity, EDGE) / (packed.contrast * (1.0 + 2.0 * packed.density));
             self.detail.mean(|detail| {
                 self.amount
                     .above(packed.threshold + alpha / (detail + (1.0 - detail) * smooth))

@@ -1,7 +1,7 @@
 //! The pictures of the ring: which a frame draws, and what it draws into them.
 
 use super::Pass;
-use crate::device::common::Common;
+use crate::device::context::Context;
 use crate::params::SkyModel;
 use crate::sprites::frame::{Frame, cell_texels};
 use crate::sprites::pipelines::{STRIDE, one_of, pictures};
@@ -12,12 +12,12 @@ use crate::sprites::wind::lift_m;
 
 impl Pass {
     /// Lets the ring go on by a frame, and makes or drops its pictures.
-    pub(super) fn step_ring(&mut self, common: &Common, now: Station) {
+    pub(super) fn step_ring(&mut self, context: &Context, now: Station) {
         let is_new = self.ring.is_none();
         let ring = self.ring.get_or_insert_with(|| Ring::new(now));
         self.step = if is_new { Step::All } else { ring.step(now) };
         let is_on = ring.current().is_on();
-        let (device, output) = (&common.device, common.build.output);
+        let (device, output) = (&context.device, context.build.output);
         match self.step {
             Step::Keep => {}
             Step::All => {

@@ -46,9 +46,9 @@ fn with_the_ring_the_picture_is_the_same_within_two_percent() {
         for place in PLACES {
             for azimuth in [20.0, 200.0] {
                 let camera = view(DVec3::from(place), azimuth, -2.0, SIZE);
-                sky.forget();
+                sky.reset_history();
                 let expected = frame(&mut sky, &at(cover, 0.0), &camera);
-                sky.forget();
+                sky.reset_history();
                 let actual = frame(&mut sky, &at(cover, RADIUS_M), &camera);
                 let [_, into_ring] = sky.sprites_drawn();
                 assert!(into_ring > 0, "the ring is made");
@@ -75,7 +75,7 @@ fn far_clouds_of_one_sprite_are_on_by_default_and_pay() {
         all.sprites.billboards_beyond_m = MOST_DISTANCE_M;
         let camera = view(DVec3::from(PLACES[0]), 20.0, 4.0, SIZE);
         let [(expected, every), (actual, fewer)] = [all, one].map(|params| {
-            sky.forget();
+            sky.reset_history();
             let picture = frame(&mut sky, &params, &camera);
             (picture, sky.sprites_drawn()[1])
         });
@@ -99,7 +99,7 @@ fn no_seam_shows_between_the_pictures() {
             fov_y_rad: 0.25,
             ..view(DVec3::new(500.0, 700.0, 700.0), azimuth, 5.0, SIZE)
         };
-        sky.forget();
+        sky.reset_history();
         let picture = frame(&mut sky, &params, &camera);
         for row in picture.chunks_exact(SIZE[0] as usize) {
             for (step, pair) in steps.iter_mut().zip(row.windows(2)) {
@@ -177,7 +177,7 @@ fn a_sky_that_forgets_draws_what_a_new_one_draws() {
     for step in 0..12 {
         frame(&mut old, &params, &camera(f64::from(step) * 180.0));
     }
-    old.forget();
+    old.reset_history();
     let mut new = gpu::sky(pack::default_pack(), FORMAT);
     let here = camera(2300.0);
     let [old, new] = [&mut old, &mut new].map(|sky| frame(sky, &params, &here));

@@ -82,7 +82,7 @@ fn picture(frame: &Frame, inputs: &Inputs, sprites: &[Placed], off: [f32; 2]) ->
 }
 
 fn cases() -> Vec<(&'static str, SkyParams, Camera)> {
-    let usual = params();
+    let defaults = params();
     let south_of = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     let ground = view(south_of(2000.0, 2.0, 2600.0), 0.0, 35.0, SIZE);
     let beside = view(south_of(3300.0, 1250.0, 1100.0), 270.0, 0.0, SIZE);
@@ -94,41 +94,44 @@ fn cases() -> Vec<(&'static str, SkyParams, Camera)> {
             formation: 0.6,
             ..without_ring()
         },
-        ..usual
+        ..defaults
     };
     let billboards = SkyParams {
         sprites: SpriteParams {
             billboards_beyond_m: 8500.0,
             ..without_ring()
         },
-        ..usual
+        ..defaults
     };
     let sunset = SkyParams {
         time: 0.74,
         sunset: 1.0,
         density: 1.0,
-        ..usual
+        ..defaults
     };
     let perez = SkyParams {
         sky: SkyModel::Perez,
-        ..usual
+        ..defaults
     };
     let night = SkyParams {
         time: 0.95,
-        ..usual
+        ..defaults
     };
-    let mut stormy = SkyParams { time: 0.8, ..usual };
+    let mut stormy = SkyParams {
+        time: 0.8,
+        ..defaults
+    };
     stormy.weather.lightning = Lightning {
         strength: 1.0,
         start_s: -0.01,
         place_m: [2300.0, 900.0],
     };
     vec![
-        ("ground", usual, ground),
-        ("beside", usual, beside),
-        ("above", usual, above),
-        ("below", usual, below),
-        ("far", usual, far),
+        ("ground", defaults, ground),
+        ("beside", defaults, beside),
+        ("above", defaults, above),
+        ("below", defaults, below),
+        ("far", defaults, far),
         ("forming", forming, ground),
         ("billboards", billboards, far),
         ("sunset", sunset, ground),
@@ -148,7 +151,7 @@ fn radiance_of_sprites_agrees_in_a_float_target() {
         [Role::Clouds, Role::Sky, Role::Sprites].map(|role| Texture::new(pack, role));
     let outlines = outlines(pack.texture(Role::Sprites).unwrap());
     for (name, params, camera) in cases() {
-        sky.forget();
+        sky.reset_history();
         let actual = gpu::rgb(&gpu::render(&mut sky, format, &params, &camera, 0.0));
         let frame = twin.frame(&params, &camera, 0.0);
         let uniforms = &frame.uniforms;

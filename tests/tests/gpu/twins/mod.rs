@@ -126,36 +126,36 @@ fn a_slightly_different_sky_is_told_apart() {
     let twin = Twin::new(pack::default_pack());
     let camera = camera(180.0, 40.0);
     for method in Method::DOMES {
-        let usual = SkyParams {
+        let defaults = SkyParams {
             method,
             ..SkyParams::default()
         };
-        let mut frame = twin.frame(&usual, &camera, 0.0);
+        let mut frame = twin.frame(&defaults, &camera, 0.0);
         let expected = frame.render();
         let bounds = allowed_with_own_reads(&mut frame, &expected);
         for other in [
             SkyParams {
-                cover: usual.cover + 0.02,
-                ..usual
+                cover: defaults.cover + 0.02,
+                ..defaults
             },
             // Density only shades clouds of this method a little more.
             SkyParams {
-                density: usual.density + if method == Method::Fbm { 0.3 } else { 0.05 },
-                ..usual
+                density: defaults.density + if method == Method::Fbm { 0.3 } else { 0.05 },
+                ..defaults
             },
             SkyParams {
-                height: usual.height + 0.01,
-                ..usual
+                height: defaults.height + 0.01,
+                ..defaults
             },
             SkyParams {
-                time: usual.time + 0.02,
-                ..usual
+                time: defaults.time + 0.02,
+                ..defaults
             },
         ] {
             let changed = twin.render(&other, &camera, 0.0);
             let difference = compare::in_bounds([&expected, &changed], &bounds);
             let told = difference.worst > 1.0 || difference.mean > 0.25;
-            assert!(told, "{other:?} passes for {usual:?}: {difference:?}");
+            assert!(told, "{other:?} passes for {defaults:?}: {difference:?}");
         }
     }
 }

@@ -110,7 +110,7 @@ fn octave_skies() -> Vec<Case> {
         ..SkyParams::default()
     };
     let with = |octaves: OctaveParams| SkyParams { octaves, ..day };
-    let usual = OctaveParams::default();
+    let defaults = OctaveParams::default();
     let storm = SkyParams {
         cover: 0.9,
         density: 0.9,
@@ -120,13 +120,16 @@ fn octave_skies() -> Vec<Case> {
     let dome = |index: usize| {
         let mut domes = [0.0; 3];
         domes[index] = 1.0;
-        with(OctaveParams { domes, ..usual })
+        with(OctaveParams { domes, ..defaults })
     };
     let sharp = with(OctaveParams {
         sharpness: 0.1,
-        ..usual
+        ..defaults
     });
-    let six = with(OctaveParams { count: 6, ..usual });
+    let six = with(OctaveParams {
+        count: 6,
+        ..defaults
+    });
     vec![
         case("storm", storm, 160.0, 25.0, 70.0),
         case("low", dome(0), 90.0, 35.0, 8.0),

@@ -103,19 +103,19 @@ fn what_is_off_changes_nothing() {
             gpu::sky(pack::default_pack(), FORMAT),
             gpu::sky(pack::default_pack(), FORMAT),
         );
-        let usual = params(method);
-        let expected = drawn(&mut sky, &usual, &view(), 30.0);
+        let defaults = params(method);
+        let expected = drawn(&mut sky, &defaults, &view(), 30.0);
         // After all of it was shown once, and is off again.
-        let all = drawn(&mut other, &all_weather(usual), &view(), BRIGHT_S);
+        let all = drawn(&mut other, &all_weather(defaults), &view(), BRIGHT_S);
         assert_ne!(all, expected);
         assert_eq!(
-            drawn(&mut other, &usual, &view(), 30.0),
+            drawn(&mut other, &defaults, &view(), 30.0),
             expected,
             "{method:?}"
         );
-        let before_and_after = with(usual, |w| w.lightning = flash());
+        let before_and_after = with(defaults, |w| w.lightning = flash());
         for seconds in [19.999, 21.0, 1e6, -1e6] {
-            let without = drawn(&mut sky, &usual, &view(), seconds);
+            let without = drawn(&mut sky, &defaults, &view(), seconds);
             assert_eq!(
                 drawn(&mut other, &before_and_after, &view(), seconds),
                 without
@@ -124,7 +124,7 @@ fn what_is_off_changes_nothing() {
         // Rays need a sun: not at night, not in the back of the viewer.
         let night = SkyParams {
             time: 0.95,
-            ..usual
+            ..defaults
         };
         let rays = with(night, |w| w.rays = 1.0);
         assert_eq!(
@@ -132,15 +132,15 @@ fn what_is_off_changes_nothing() {
             drawn(&mut sky, &night, &view(), 5.0)
         );
         let away = Camera::looking(4.0 + PI, 0.3, 1.0, SIZE);
-        let rays = with(usual, |w| w.rays = 1.0);
+        let rays = with(defaults, |w| w.rays = 1.0);
         assert_eq!(
             drawn(&mut other, &rays, &away, 5.0),
-            drawn(&mut sky, &usual, &away, 5.0)
+            drawn(&mut sky, &defaults, &away, 5.0)
         );
         // And clouds.
         let clear = SkyParams {
             cover: 0.0,
-            ..usual
+            ..defaults
         };
         let rays = with(clear, |w| w.rays = 1.0);
         let (none, some) = (
@@ -236,13 +236,13 @@ fn weather_is_drawn_into_any_pass_that_the_sky_is_drawn_into() {
                     });
                     gpu::read(&target)
                 };
-                let usual = picture(params(method));
+                let defaults = picture(params(method));
                 assert_ne!(
                     picture(all_weather(params(method))),
-                    usual,
+                    defaults,
                     "{method:?} {model:?}"
                 );
-                assert_eq!(picture(params(method)), usual, "{method:?} {model:?}");
+                assert_eq!(picture(params(method)), defaults, "{method:?} {model:?}");
             }
         }
     }
@@ -267,10 +267,10 @@ fn a_target_that_cannot_be_blended_with_shows_what_needs_no_blending() {
         gpu::pass(&target, None, None, |pass| sky.draw(pass));
         gpu::read(&target)
     };
-    let usual = params(Method::Packed);
-    let without = picture(&usual);
-    assert_eq!(picture(&with(usual, |w| w.rays = 1.0)), without);
-    let rain = with(usual, |w| w.rain = 1.0);
+    let defaults = params(Method::Packed);
+    let without = picture(&defaults);
+    assert_eq!(picture(&with(defaults, |w| w.rays = 1.0)), without);
+    let rain = with(defaults, |w| w.rain = 1.0);
     let twin = Twin::new(pack::default_pack());
     let frame = twin.frame_without_map(&rain, &view(), BRIGHT_S);
     let haze = |ray| welkin_tests::rain::haze(&frame.uniforms.rain, ray);
@@ -278,7 +278,7 @@ fn a_target_that_cannot_be_blended_with_shows_what_needs_no_blending() {
     let bounds = vec![Vec3::splat(1e-4); hazed.len()];
     assert_near("haze", &hazed, &gpu::rgb(&picture(&rain)), &bounds, 0.1);
     assert_ne!(
-        picture(&with(usual, |w| w.lightning = Lightning {
+        picture(&with(defaults, |w| w.lightning = Lightning {
             place_m: [-900.0, 600.0],
             ..flash()
         })),

@@ -217,17 +217,17 @@ fn a_sequence_and_its_parts() {
             .sequence(render.settings.settings.at_s)
             .unwrap()
     };
-    let usual = Sequence {
+    let defaults = Sequence {
         frames: 48,
         fps: USUAL_FPS,
         start_s: 10.0,
         shard: Shard::WHOLE,
     };
-    assert_eq!(of(&[]), usual);
+    assert_eq!(of(&[]), defaults);
     let part = Sequence {
         fps: 23.976,
         shard: Shard { index: 2, count: 4 },
-        ..usual
+        ..defaults
     };
     assert_eq!(of(&["--fps", "23.976", "--shard", "2/4"]), part);
     assert_eq!(read("f.png", &[]).unwrap().export.sequence(0.0), None);

@@ -28,11 +28,11 @@ fn params(args: &[&str]) -> SkyParams {
 fn no_option_is_the_default_sky() {
     assert_eq!(params(&[]), SkyParams::default());
     for method in Method::ALL {
-        let usual = SkyParams {
+        let defaults = SkyParams {
             method,
             ..SkyParams::default()
         };
-        assert_eq!(params(&["--method", method.name()]), usual);
+        assert_eq!(params(&["--method", method.name()]), defaults);
     }
 }
 

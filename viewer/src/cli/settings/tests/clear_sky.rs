@@ -16,12 +16,12 @@ fn read(args: &[&str]) -> Result<SkyParams, String> {
 fn a_model_is_chosen_by_name_and_shaped_by_its_options() {
     for model in SkyModel::ALL {
         let params = read(&["--sky", model.name()]).unwrap();
-        let usual = SkyParams::default();
+        let defaults = SkyParams::default();
         assert_eq!(
             params,
             SkyParams {
                 sky: model,
-                ..usual
+                ..defaults
             }
         );
     }

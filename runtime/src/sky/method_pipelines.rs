@@ -1,6 +1,6 @@
 //! What one method needs on a device: its pipelines, its off-screen pass, and what is drawn over its sky.
 
-use crate::device::common::{Common, Dome};
+use crate::device::context::{Context, Dome};
 use crate::device::pipeline::{Overlay, Variant};
 use crate::methods::interface::MapPass;
 use crate::params::{Method, SkyModel, SkyParams};
@@ -9,7 +9,7 @@ use crate::weather::overlays::{Overlays, Shown};
 
 /// A method on a device.
 #[derive(Debug)]
-pub(crate) struct Program {
+pub(crate) struct MethodPipelines {
     method: Method,
     /// Of each sky model, at its place in [`SkyModel::ALL`]; without weather, and with it.
     pipelines: [[Option<[wgpu::RenderPipeline; 4]>; 2]; SkyModel::ALL.len()],
@@ -20,47 +20,47 @@ pub(crate) struct Program {
     pub weather: Overlays,
 }
 
-impl Program {
+impl MethodPipelines {
     /// What the method of the parameters needs, for their sky model.
-    pub fn new(common: &Common, params: &SkyParams) -> Program {
+    pub fn new(context: &Context, params: &SkyParams) -> MethodPipelines {
         let (method, sky) = (params.method, params.sky);
-        let own = method.clouds().own_layout(&common.layouts);
-        let module = common.module(Dome {
+        let own = method.clouds().own_layout(&context.layouts);
+        let module = context.module(Dome {
             method,
             sky,
             weather: false,
         });
-        let flare = || common.overlay(&module, own, &Overlay::FLARE);
+        let flare = || context.overlay(&module, own, &Overlay::FLARE);
         let mut models = [const { [const { None }; 2] }; SkyModel::ALL.len()];
-        models[sky as usize][0] = Some(common.pipelines(&module, own, false));
-        Program {
+        models[sky as usize][0] = Some(context.pipelines(&module, own, false));
+        MethodPipelines {
             method,
             pipelines: models,
-            flare: common.blends.then(flare),
-            map: method.clouds().map(common, &module, params),
+            flare: context.blends.then(flare),
+            map: method.clouds().map(context, &module, params),
             #[cfg(feature = "weather")]
             weather: Overlays::default(),
         }
     }
 
     /// Makes what is not there yet for the parameters.
-    pub fn fit(&mut self, common: &Common, params: &SkyParams) {
-        self.fit_sky(common, params.sky, false);
+    pub fn ensure(&mut self, context: &Context, params: &SkyParams) {
+        self.ensure_sky(context, params.sky, false);
         if let Some(map) = &mut self.map {
-            map.fit(common, params);
+            map.ensure(context, params);
         }
     }
 
     /// Makes the pipelines of a sky model, with weather or without.
-    pub fn fit_sky(&mut self, common: &Common, sky: SkyModel, weather: bool) {
+    pub fn ensure_sky(&mut self, context: &Context, sky: SkyModel, weather: bool) {
         let dome = Dome {
             method: self.method,
             sky,
             weather,
         };
         self.pipelines[sky as usize][usize::from(weather)].get_or_insert_with(|| {
-            let own = dome.method.clouds().own_layout(&common.layouts);
-            common.pipelines(&common.module(dome), own, weather)
+            let own = dome.method.clouds().own_layout(&context.layouts);
+            context.pipelines(&context.module(dome), own, weather)
         });
     }
 
@@ -74,15 +74,15 @@ impl Program {
     #[cfg(feature = "weather")]
     pub fn record_weather(
         &mut self,
-        common: &Common,
+        context: &Context,
         shown: Shown,
         encoder: &mut wgpu::CommandEncoder,
         shared: &wgpu::BindGroup,
     ) {
-        let layout = self.method.clouds().own_layout(&common.layouts);
+        let layout = self.method.clouds().own_layout(&context.layouts);
         let own = layout.zip(self.map.as_ref().map(|map| map.group()));
         self.weather
-            .record(common, self.method, shown, encoder, shared, own);
+            .record(context, self.method, shown, encoder, shared, own);
     }
 
     /// Bytes of the textures that it draws.

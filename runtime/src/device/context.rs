@@ -19,7 +19,7 @@ pub struct Dome {
 
 /// What every program is made from.
 #[derive(Debug)]
-pub(crate) struct Common {
+pub(crate) struct Context {
     pub device: wgpu::Device,
     pub config: SkyConfig,
     pub build: Build,
@@ -34,7 +34,7 @@ pub(crate) struct Common {
     pub blends: bool,
 }
 
-impl Common {
+impl Context {
     /// The texture of the pack that this method alone reads.
     pub fn own_texture(&self, method: Method) -> Option<&wgpu::Texture> {
         self.own[method as usize].as_ref()
