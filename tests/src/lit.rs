@@ -178,7 +178,7 @@ mod tests {
     use super::*;
     use crate::{lit_map, pack};
 
-    /// A shut sky's horizon is the twin's cloud where every channel has its mean, averaged around the horizon.
+    /// An overcast's horizon is the twin's cloud where every channel has its mean, averaged around the horizon.
     #[test]
     fn a_shut_sky_far_away_is_the_mean_cloud() {
         let facts = PackData::new(pack::default_pack()).expect("the pack has every role");

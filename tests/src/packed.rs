@@ -164,7 +164,7 @@ mod tests {
         );
     }
 
-    /// A shut sky's horizon is the twin's cloud where every channel has its mean.
+    /// An overcast's horizon is the twin's cloud where every channel has its mean.
     #[test]
     fn a_shut_sky_far_away_is_the_mean_cloud() {
         let pack = crate::pack::default_pack();

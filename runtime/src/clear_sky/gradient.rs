@@ -83,14 +83,14 @@ const BAND: Vec3 = Vec3::new(0.55, 0.21, 0.05);
 
 /// The clear sky's share of the uniforms.
 ///
-/// `night` is the share of the night sky that is drawn, `overcast` the radiance of a shut sky, `closing` how far it is shut.
+/// `night` is the share of the night sky that is drawn, `overcast` the radiance of an overcast sky, `overcast_weight` how overcast it is.
 pub fn uniforms(
     light: &Light,
     sky: &Image,
     time: f32,
     night: f32,
     overcast: Vec3,
-    closing: f32,
+    overcast_weight: f32,
 ) -> SkyUniforms {
     let (width, height) = (sky.width as f32, sky.height as f32);
     let sun_up = light.sun_direction.y;
@@ -108,7 +108,7 @@ pub fn uniforms(
         band: BAND * twilight,
         band_sharpness: BAND_SHARPNESS,
         overcast,
-        overcast_weight: closing,
+        overcast_weight: overcast_weight,
         horizon_v: 0.5 / height,
         elevation_v: (height - 1.0) / height,
         ..Default::default()

@@ -1,4 +1,4 @@
-//! What the clouds of every method share: their light, the sunset tint, the haze, and how the sky is shut.
+//! What the clouds of every method share: their light, the sunset tint, the haze, and what an overcast is.
 //!
 //! # Theory
 //! Roden and Parberry (ACE 2005, section 3.1): the gradient tints the sun's side (lines 26-27), sunlight
@@ -7,7 +7,7 @@
 //! # Changes versus the paper
 //! - The paper's grey is display-referred; its square is taken as reflected sunlight, itself as skylight.
 //! - Cores are never black: [`CORE`] is what the paper's black becomes.
-//! - Cover above 0.8 shuts the sky: see [`closing`].
+//! - Cover above 0.8 makes an overcast: see [`overcast_weight`].
 //!
 //! # Practice
 //! No read of its own by day; one bilinear with sunset above 0.
@@ -53,12 +53,12 @@ uniforms! {
 
 /// What the darkest core of a cloud, the paper's black, still scatters: display-referred.
 pub const CORE: f32 = 0.3;
-/// Sine of the elevation at which clouds have come out of the haze of the horizon, and the same of a shut sky.
+/// Sine of the elevation at which clouds have come out of the haze of the horizon, and the same of an overcast sky.
 const HAZE: [f32; 2] = [0.20, 0.08];
 
-/// Cover from which the sky closes.
-const CLOSING: f32 = 0.8;
-/// Share of sunlight that a shut sky keeps from its own underside.
+/// Cover from which the sky is overcast.
+const OVERCAST_FROM: f32 = 0.8;
+/// Share of sunlight that an overcast sky keeps from its own underside.
 pub(crate) const SHADE: f32 = 0.4;
 
 /// Wind at speed 1 in heights of the layer a second: 2.3 degrees a second overhead.
@@ -94,7 +94,7 @@ impl CloudView {
     }
 
     /// How near a layer that floats `height_m` above the ground is, in its heights: 1 from the ground, less from above it.
-    /// Who climbs to the layer or beyond stays below it.
+    /// It never reaches 0: a viewer above the layer is kept just below it.
     pub(crate) fn distance(&self, height_m: f64) -> f64 {
         (1.0 - self.place_m.y / height_m).max(LEAST_DISTANCE)
     }
@@ -107,15 +107,15 @@ impl CloudView {
 
 /// The share of the uniforms that no method changes. `params` are in range.
 pub fn uniforms(params: &SkyParams, light: &Light, texels: u32) -> CloudUniforms {
-    let closing = closing(params.cover);
+    let overcast_weight = overcast_weight(params.cover);
     let half_texel = 0.5 / texels as f32;
     CloudUniforms {
         sun_azimuth: sun_azimuth(light.sun_direction),
         // Half a texel is kept from the ends: the texture repeats, and its ends are far apart.
         gradient_start: half_texel,
         gradient_span: 1.0 - 2.0 * half_texel,
-        sunlight: light.sunlight * (1.0 - SHADE * closing),
-        haze_scale: 1.0 / (HAZE[0] + (HAZE[1] - HAZE[0]) * closing),
+        sunlight: light.sunlight * (1.0 - SHADE * overcast_weight),
+        haze_scale: 1.0 / (HAZE[0] + (HAZE[1] - HAZE[0]) * overcast_weight),
         ambient: ambient(light.skylight),
         sunset: params.sunset,
         tint: SUNSET_TINT,
@@ -129,9 +129,9 @@ pub(crate) fn radiance(clouds: &CloudUniforms, grey: f32) -> Vec3 {
     bright * (bright * clouds.sunlight + clouds.ambient)
 }
 
-/// How far the sky is shut at a cover, 0..1: an overcast has no holes.
-pub fn closing(cover: f32) -> f32 {
-    smoothstep(CLOSING, 1.0, cover)
+/// How overcast the sky is at a cover, 0..1: an overcast has no holes.
+pub fn overcast_weight(cover: f32) -> f32 {
+    smoothstep(OVERCAST_FROM, 1.0, cover)
 }
 
 /// `cloud_soften` of the shader.
@@ -198,7 +198,7 @@ mod tests {
             };
             uniforms(&params, &light, 512).sunlight.x
         };
-        assert_eq!((closing(0.8), closing(1.0)), (0.0, 1.0));
+        assert_eq!((overcast_weight(0.8), overcast_weight(1.0)), (0.0, 1.0));
         assert_eq!((sunlight(0.3), sunlight(0.8)), (1.0, 1.0));
         assert_eq!(sunlight(1.0), 1.0 - SHADE);
     }

@@ -63,8 +63,8 @@ pub(crate) trait CloudMethod: Sync {
     }
 
     /// How overcast the sky behind is, 0..1.
-    fn closing(&self, params: &SkyParams, _viewer_m: f32, _pack: &PackData) -> f32 {
-        shared::closing(params.cover)
+    fn overcast_weight(&self, params: &SkyParams, _viewer_m: f32, _pack: &PackData) -> f32 {
+        shared::overcast_weight(params.cover)
     }
 
     /// Radiance of an overcast far away, where single clouds cannot be told apart.

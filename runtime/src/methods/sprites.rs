@@ -36,8 +36,8 @@ impl CloudMethod for Sprites {
             sprites::uniforms(frame.clamped, &frame.view, &frame.light, hours, flash);
     }
 
-    fn closing(&self, params: &SkyParams, viewer_m: f32, pack: &PackData) -> f32 {
-        sprites::closing(params, viewer_m, pack.cloud_heights_m)
+    fn overcast_weight(&self, params: &SkyParams, viewer_m: f32, pack: &PackData) -> f32 {
+        sprites::overcast_weight(params, viewer_m, pack.cloud_heights_m)
     }
 
     fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {

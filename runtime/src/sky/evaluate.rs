@@ -70,9 +70,16 @@ impl PackData {
         Method::Sprites.clouds().write(&mut uniforms, &frame);
 
         let shown = clamped.method.clouds();
-        let closing = shown.closing(&clamped, view.place_m.y as f32, self);
+        let overcast_weight = shown.overcast_weight(&clamped, view.place_m.y as f32, self);
         let overcast = shown.overcast(&uniforms, self);
-        uniforms.sky = gradient::uniforms(&light, &self.sky, params.time, night, overcast, closing);
+        uniforms.sky = gradient::uniforms(
+            &light,
+            &self.sky,
+            params.time,
+            night,
+            overcast,
+            overcast_weight,
+        );
         #[cfg(feature = "perez")]
         {
             uniforms.perez = perez::uniforms(&params.perez, params.sky, &light);
@@ -111,7 +118,7 @@ fn write_weather(uniforms: &mut Uniforms, frame: &MethodFrame<'_>, screen: &Rays
 }
 
 impl Variant {
-    /// The least that draws a frame.
+    /// What a frame needs beyond the clear sky.
     pub fn of(uniforms: &Uniforms) -> Variant {
         Variant {
             night: uniforms.sky.night > 0.0,

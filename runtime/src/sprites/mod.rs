@@ -127,7 +127,7 @@ pub fn uniforms(
     let luminary = luminary(light, 1.0);
     let change = smoothstep(0.0, MOON[1], (light.sun_direction.y - MOON[0]).abs());
     let mix = |[from, to]: [f32; 2]| from + (to - from) * params.density;
-    let shut = 1.0 - shared::SHADE * shared::closing(params.cover);
+    let shut = 1.0 - shared::SHADE * shared::overcast_weight(params.cover);
     let billboards = own.billboards_beyond_m;
     let [x, y, z] = [
         f64::from(params.weather.lightning.place_m[0]),
@@ -167,14 +167,14 @@ pub fn heights_m(field: &Field) -> [f32; 2] {
     both.unwrap_or_default()
 }
 
-/// How far the sky behind is shut: from below by cover, as in every method; from above the clouds it is open.
-pub fn closing(params: &SkyParams, viewer_m: f32, [base_m, top_m]: [f32; 2]) -> f32 {
+/// How overcast the sky behind is: from below by cover, as in every method; from above the clouds it is open.
+pub fn overcast_weight(params: &SkyParams, viewer_m: f32, [base_m, top_m]: [f32; 2]) -> f32 {
     let height_m = viewer_m - lift_m(params) as f32;
     let above = smoothstep(base_m, top_m.max(base_m + 1.0), height_m);
-    shared::closing(params.cover) * (1.0 - above)
+    shared::overcast_weight(params.cover) * (1.0 - above)
 }
 
-/// Mean radiance of a sky that the field's clouds have shut.
+/// Mean radiance of a sky that the field's clouds cover.
 pub fn overcast(sprites: &SpriteUniforms) -> Vec3 {
     let middle = 0.5 * (sprites.least + sprites.most);
     OVERCAST_LEVEL * sprites.ambient * (1.0 - 0.5 * sprites.dark_base)
@@ -213,14 +213,14 @@ mod tests {
             cover: 1.0,
             ..SkyParams::default()
         };
-        let at = |height: f32| closing(&shut, height, [1000.0, 1800.0]);
+        let at = |height: f32| overcast_weight(&shut, height, [1000.0, 1800.0]);
         assert_eq!(
             [at(2.0), at(1000.0), at(1800.0), at(9000.0)],
             [1.0, 1.0, 0.0, 0.0]
         );
         assert!((at(1400.0) - 0.5).abs() < 1e-6);
         let fair = SkyParams { cover: 0.5, ..shut };
-        assert_eq!(closing(&fair, 2.0, [1000.0, 1800.0]), 0.0);
+        assert_eq!(overcast_weight(&fair, 2.0, [1000.0, 1800.0]), 0.0);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! # Theory
 //! Wang, "Performance": an octagonal ring of eight pictures of 256x256, 45 degrees each, about the camera. Blocks beyond its radius are
-//! drawn into it, those within as sprites. All eight are made anew when the camera has moved by 15 % of the radius sideways or 2 % up or
+//! drawn into it, those within as sprites. All eight are rebuilt when the camera has moved by 15 % of the radius sideways or 2 % up or
 //! down or the sun has moved, one a frame, and old and new are cross-faded. They shift with the camera's height, and are not used when
 //! clouds are more than 10,000 feet above or below the camera. Eight pictures of four bytes a texel: 2 MB, 4 MB while they change.
 //!
@@ -62,7 +62,7 @@ pub enum Step {
     Swap,
 }
 
-/// The ring's story.
+/// What a ring is doing: in use, being rebuilt, or giving way to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {
     current: Station,

@@ -83,7 +83,7 @@ pub const BLOCKS_A_FRAME: f64 = 48.0;
 /// Frames over which old and new are cross-faded.
 pub const FADE_FRAMES: u32 = 16;
 
-/// How far the viewer goes before the ring is made anew, over its radius: sideways, and up or down.
+/// How far the viewer goes before the ring is rebuilt, over its radius: sideways, and up or down.
 pub(super) const REACH: [f64; 2] = [0.15, 0.02];
 /// How far the sun goes, as a cosine: one degree.
 pub(super) const SUN_COSINE: f32 = 0.999_847_7;

@@ -10,7 +10,7 @@
 //!   `2 sin(angle / 2)`. So a ray is a column, nothing ends at the edge of the screen, and rays stay where they are as the view turns.
 //! - The source is bright where it is near the sun, and hidden by the method's own `cloud_layer`; the scene does not hide it.
 //! - The sum is divided by that of a clear sky, and the mean of its surroundings is taken away. What is left is streaks: brighter ones
-//!   lie over the picture as haze in the light, darker ones as haze in the shade. A clear or a shut sky has none.
+//!   lie over the picture as haze in the light, darker ones as haze in the shade. A clear or an overcast sky has none.
 //!
 //! # Practice
 //! Off by default. Three passes of 256x128 RG8 texels: a look at the clouds a texel, then [`TAPS`] reads, then [`AROUND`].

@@ -303,7 +303,7 @@ fn light_from_the_horizon_meets_no_cloud_and_a_clear_sky_throws_no_shadow() {
     gpu::prepare(&mut sky, &overcast, &view, 4.0);
     assert!(
         Shadows::of(&sky).texels.iter().all(|&t| t < 0.1),
-        "a shut sky"
+        "an overcast sky"
     );
     assert_eq!(overcast.lit.layers.len(), MAX_LAYERS);
 }

@@ -71,7 +71,10 @@ fn a_recipe_without_sections_leaves_the_field_out() {
 fn memory_is_said_before_it_is_taken() {
     let desk = Desk::new();
     let defaults = bake(&desk, "[field]\nsections = 1\n");
-    assert!(!defaults.stderr.contains("the field may have"), "{defaults:?}");
+    assert!(
+        !defaults.stderr.contains("the field may have"),
+        "{defaults:?}"
+    );
     fs::remove_dir_all(desk.path("pack")).unwrap();
     let large = bake(&desk, "[field]\nsections = 1\nmost_sprites = 65536\n");
     let said = "the field may have 65536 sprites, 16384 boxes and 4096 clouds, which take ";

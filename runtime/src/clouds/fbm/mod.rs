@@ -22,7 +22,9 @@ pub mod pack;
 
 use glam::{DMat2, DVec2, Vec2, Vec3, Vec4};
 
-use crate::clouds::shared::{CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, closing, offset};
+use crate::clouds::shared::{
+    CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, offset, overcast_weight,
+};
 use crate::geometry::math::normal_share;
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
@@ -152,12 +154,12 @@ pub fn uniforms(
 
 /// The article's m and n: `m = 1 / (b - a)`, `n = -a / (b - a)`; and n for the heights along the ray.
 ///
-/// In a shut sky every height would be far above the ray: there a stays at what leaves light and shade.
+/// In an overcast sky every height would be far above the ray: there a stays at what leaves light and shade.
 fn remap(cover: f32, sharpness: f32, mean: f32, spread: f32) -> [f32; 3] {
     let slope = SLOPE[0] + (SLOPE[1] - SLOPE[0]) * sharpness;
     let quantile = normal_quantile(1.0 - cover);
     // An overcast has no holes: a sinks until even the thinnest place is opaque.
-    let a = mean + spread * (quantile - slope * closing(cover));
+    let a = mean + spread * (quantile - slope * overcast_weight(cover));
     let a_of_ray = mean + spread * quantile.max(LOWEST_RAY);
     let m = 1.0 / (spread * slope);
     [m, -a * m, -a_of_ray * m]
@@ -177,7 +179,7 @@ fn normal_quantile(share: f32) -> f32 {
     0.5 * (low + high)
 }
 
-/// Radiance of a shut sky far away: every height along the ray is the mean one.
+/// Radiance of an overcast sky far away: every height along the ray is the mean one.
 pub fn overcast(fbm: &FbmUniforms, clouds: &CloudUniforms) -> Vec3 {
     let height = fbm.slope * fbm.mean + fbm.ray_intercept;
     let inside = map::DEPTHS

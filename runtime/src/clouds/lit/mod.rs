@@ -37,7 +37,7 @@ use welkin_pack::LayerKind;
 
 use crate::clear_sky::light::{Light, luminary};
 use crate::clouds::shared::{
-    CloudUniforms, CloudView, OPAQUE, closing, inverse_smoothstep, offset,
+    CloudUniforms, CloudView, OPAQUE, inverse_smoothstep, offset, overcast_weight,
 };
 use crate::geometry::dome::{self, Hit, Mesh};
 use crate::geometry::math::smoothstep;
@@ -216,7 +216,7 @@ const CELLS: f64 = 12.0;
 const CHANGE_WAY: DVec2 = DVec2::new(0.8, -0.6);
 /// How fast shade deepens at density 0 and what density 1 adds, as factors on that of the kind. Chosen by eye.
 const SHADE_OF_DENSITY: [f32; 2] = [0.6, 0.8];
-/// How much less a shut sky is shaded: light comes from all sides.
+/// How much less an overcast sky is shaded: light comes from all sides.
 const EVENED: f32 = 0.65;
 /// Cover of a layer below which it is a trace.
 const TRACE: f32 = 0.02;
@@ -275,7 +275,7 @@ pub fn uniforms(
         one_minus_squared: 1.0 - f2,
         count: count as f32,
         resolution: map::SIDE as f32,
-        light: light.sunlight * shut(params.cover),
+        light: light.sunlight * underside_light(params.cover),
         k1: own.k1,
         light_direction: sun,
         k2: own.k2,
@@ -302,9 +302,9 @@ pub(crate) fn height_m(params: &SkyParams, index: usize) -> f64 {
     f64::from(own.radius_m) * f64::from(own.flattening) * f64::from(height)
 }
 
-/// Share of the light that a shut sky lets through to its own underside.
-fn shut(cover: f32) -> f32 {
-    1.0 - crate::clouds::shared::SHADE * closing(cover)
+/// Share of the light that an overcast sky lets through to its own underside.
+fn underside_light(cover: f32) -> f32 {
+    1.0 - crate::clouds::shared::SHADE * overcast_weight(cover)
 }
 
 /// The share of the sky that a layer covers: `1 - cover` is the product of what they leave open.
@@ -351,7 +351,7 @@ fn layer_uniforms(
         opacity: look.opacity,
         shade_rate: look.shade
             * (thin + more * params.density)
-            * (1.0 - EVENED * closing(params.cover)),
+            * (1.0 - EVENED * overcast_weight(params.cover)),
         blur_step: step as f32,
         lod_bias: view.level(texels_a_height),
         kind: layer.kind as u32 as f32,
@@ -370,7 +370,7 @@ fn cut(cover: f32, steepness: f32, opacity: f32) -> f32 {
     1.0 - cover - edge - OVERCAST * smoothstep(SHUTTING, 1.0, cover)
 }
 
-/// Radiance of a shut sky far away: layers where they have their mean, flat, around the whole horizon.
+/// Radiance of an overcast sky far away: layers where they have their mean, flat, around the whole horizon.
 pub fn overcast(lit: &LitUniforms) -> Vec3 {
     let LitUniforms { k1, k2, m, .. } = *lit;
     let [lowest, ..] = &lit.layers;

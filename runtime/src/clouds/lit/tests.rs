@@ -69,7 +69,7 @@ fn the_cut_leaves_the_cover_opaque_enough() {
         assert!((alpha - COVERED).abs() < 1e-4, "{alpha}");
     }
     assert_eq!(cut(0.0, 9.0, 1.0), 1.0);
-    assert!(cut(1.0, 9.0, 1.0) < -0.3, "an overcast is shut");
+    assert!(cut(1.0, 9.0, 1.0) < -0.3, "an overcast has no holes");
 }
 
 #[test]

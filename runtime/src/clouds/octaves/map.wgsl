@@ -60,7 +60,7 @@ fn fs_octaves_map(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let thickness = amount - octaves.low.threshold;
     let low = octaves_alpha(thickness, octaves.exponent);
     let middle = octaves_alpha(amount - octaves.middle.threshold, OCTAVE_THIN * octaves.exponent);
-    // In a shut sky the cut is below 0, and what lies under 0 does not darken.
+    // In an overcast sky the cut is below 0, and what lies under 0 does not darken.
     let dark = octaves.darkening * max(amount - max(octaves.low.threshold, 0.0), 0.0);
     return vec4f(amount, low, middle, octaves.edge_grey + relief - dark);
 }

@@ -17,7 +17,7 @@
 //! - The veil of the high dome rises as a smoothstep that is half full where the exponentiation is: the same to the eye,
 //!   without an exponential a pixel.
 //! - A second, finer read of the same map roughens the low clouds: the map has one texel a degree.
-//! - At cover above 0.8 the cut goes on below 0, as in the packed method: an overcast is shut.
+//! - At cover above 0.8 the cut goes on below 0, as in the packed method: an overcast has no holes.
 //!
 //! # Practice
 //! Two reads for the low dome, one each for the others, since opacity, relief and grey are in the map; a dome without cover costs nothing. Parallax needs the
@@ -29,7 +29,7 @@ pub mod map;
 use glam::{DMat2, DVec2, Vec2, Vec3, Vec4};
 
 use crate::clouds::shared::{
-    CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, closing, offset, radiance,
+    CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, offset, overcast_weight, radiance,
 };
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
@@ -173,18 +173,18 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun_azimuth: Vec2) -> Octa
         let texels_a_height = f64::from(side) * seen.determinant().abs().sqrt();
         let share = own.domes[index];
         // The low dome is what shuts the sky, whatever its share.
-        let closed = if index == 0 && share > 0.0 {
-            closing(params.cover)
+        let weight = if index == 0 && share > 0.0 {
+            overcast_weight(params.cover)
         } else {
             0.0
         };
-        let cover = params.cover * share * (1.0 - closed) + closed;
+        let cover = params.cover * share * (1.0 - weight) + weight;
         OctaveDome {
             east_axis: seen.x_axis.as_vec2(),
             south_axis: seen.y_axis.as_vec2(),
             offset: offset(STARTS[index] + axes(index) * place),
             lod_bias: view.level(texels_a_height),
-            threshold: 1.0 - cover - OVERCAST * closed,
+            threshold: 1.0 - cover - OVERCAST * weight,
         }
     };
     let [low, middle, high] = [0, 1, 2].map(dome);
@@ -215,7 +215,7 @@ fn exponent(sharpness: f32) -> f32 {
     COLOUR_RANGE * (1.0 - sharpness).max(1e-7).log2()
 }
 
-/// Radiance of a shut sky far away: the low dome where the map has its mean, without relief.
+/// Radiance of an overcast sky far away: the low dome where the map has its mean, without relief.
 pub fn overcast(octaves: &OctaveUniforms, clouds: &CloudUniforms) -> Vec3 {
     let thickness = (0.5 - octaves.low.threshold.max(0.0)).max(0.0);
     radiance(

@@ -15,7 +15,7 @@
 //!   each texel of a cloud's edge.
 //! - The fold of brightness at 1 is rounded ([`FOLD`]): its kink draws a bright line into dense clouds.
 //! - The paper's cover 1 leaves holes where both channels are 0. Above 0.8 the cut of line 15 goes on below 0,
-//!   and detail no longer pierces: an overcast sky is shut.
+//!   and detail no longer pierces: an overcast sky has no holes.
 //! - The thin upper layer (figure 5) is laid behind the lower one instead of added to it.
 //!
 //! # Practice
@@ -26,7 +26,7 @@ pub mod coverage;
 use glam::{DVec2, Vec2, Vec3};
 
 use crate::clouds::shared::{
-    CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, closing, offset, radiance,
+    CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, offset, overcast_weight, radiance,
 };
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
@@ -135,7 +135,7 @@ pub fn uniforms(params: &SkyParams, view: &CloudView) -> PackedUniforms {
     let upper_scale = DVec2::from(UPPER_SCALE) * view.distance(UPPER_HEIGHT_M);
     let upper_place = view.place(UPPER_HEIGHT_M) - UPPER_WIND * way;
     let level = |scale: f64| view.level(scale * f64::from(view.texels));
-    let closing = closing(params.cover);
+    let overcast_weight = overcast_weight(params.cover);
     PackedUniforms {
         photo_offset: offset(PHOTO_START + (place - PHOTO_WIND * way) * scale),
         photo_scale: (scale * near) as f32,
@@ -149,8 +149,8 @@ pub fn uniforms(params: &SkyParams, view: &CloudView) -> PackedUniforms {
         upper_offset: offset(UPPER_START + DVec2::from(UPPER_SCALE) * upper_place),
         noise_lod_bias: level(noise_scale * near),
         upper_lod_bias: level((upper_scale.x * upper_scale.y).sqrt()),
-        smoothness: params.density.max(closing),
-        threshold: 1.0 - params.cover - OVERCAST * closing,
+        smoothness: params.density.max(overcast_weight),
+        threshold: 1.0 - params.cover - OVERCAST * overcast_weight,
         contrast: 1.0 / params.cover.max(0.05),
         density: params.density,
         upper_layer: params.upper_layer,
@@ -158,10 +158,10 @@ pub fn uniforms(params: &SkyParams, view: &CloudView) -> PackedUniforms {
     }
 }
 
-/// Radiance of a shut sky far away, where single clouds cannot be told apart.
+/// Radiance of an overcast sky far away, where single clouds cannot be told apart.
 ///
 /// It is the light of a place where photo, noise and detail have their means, by the same lines as the
-/// shader's; line 19 is left out, since detail does not pierce a shut sky.
+/// shader's; line 19 is left out, since detail does not pierce an overcast sky.
 pub fn overcast(packed: &PackedUniforms, clouds: &CloudUniforms, means: [f32; 3]) -> Vec3 {
     let [photo, noise, detail] = means;
     let amount = photo + noise * (1.0 - photo);

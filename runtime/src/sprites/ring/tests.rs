@@ -1,4 +1,4 @@
-//! The ring over its whole story: made, stale, drawn anew, faded.
+//! The ring from the first picture to the cross-fade: stale, rebuilt one picture a frame, swapped.
 
 use glam::{Vec3, Vec4};
 

@@ -56,7 +56,7 @@ fn lightning_is_brightest_at_its_place_and_follows_its_strokes() {
     let twin = Twin::new(pack::default_pack());
     for method in Method::DOMES {
         let mut sky = gpu::sky(pack::default_pack(), FORMAT);
-        // A shut sky at night: cloud everywhere, and nothing else is bright.
+        // An overcast sky at night: cloud everywhere, and nothing else is bright.
         let dark = SkyParams {
             cover: 1.0,
             time: 0.0,
