@@ -8,6 +8,7 @@ use crate::device::context::Dome;
 use crate::device::map;
 use crate::device::shader::{Build, compose};
 use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::Struct;
 use crate::geometry::{camera, dome};
 use crate::params::{Method, SkyModel};
 #[cfg(feature = "weather")]
@@ -47,6 +48,17 @@ fn sky_parts(sky: SkyModel) -> &'static [Part] {
     }
 }
 
+/// The structs of all parts, each once: two methods may need the same part.
+fn structs() -> Vec<&'static Struct> {
+    let mut structs: Vec<&Struct> = Vec::new();
+    for own in every().flat_map(|part| part.structs) {
+        if structs.iter().all(|other| other.name != own.name) {
+            structs.push(own);
+        }
+    }
+    structs
+}
+
 /// Every part.
 fn every() -> impl Iterator<Item = &'static Part> {
     let methods = Method::ALL.into_iter().flat_map(|m| m.clouds().parts());
@@ -83,8 +95,7 @@ pub fn text(build: Build, dome: Dome) -> String {
         ),
     ];
     let own = [("ASK_OPAQUE", Value::Bool(clouds.is_often_opaque()))];
-    let structs = every().flat_map(|part| part.structs);
-    compose(build, &own, structs, parts, &calls)
+    compose(build, &own, structs(), parts, &calls)
 }
 
 /// What a pixel of the sky is put together from.
@@ -248,7 +259,7 @@ mod tests {
     #[test]
     fn rust_and_wgsl_agree_on_the_layout_of_every_struct() {
         let module = &parse(builds()[0]);
-        for own in every().flat_map(|part| part.structs) {
+        for own in structs() {
             let members = own.members.iter();
             let rust = members.map(|m| (m.name.to_string(), m.offset as u32));
             let rust = (rust.collect(), own.size as u32);

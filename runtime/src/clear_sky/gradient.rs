@@ -1,4 +1,4 @@
-//! The clear sky of [`crate::SkyModel::Gradient`]: the pack's day gradient and the light scattered around the sun.
+//! The clear sky of [`crate::params::SkyModel::Gradient`]: the pack's day gradient and the light scattered around the sun.
 //!
 //! # Theory
 //! The gradient holds radiance over elevation and time, away from the sun. Haze throws light forward:

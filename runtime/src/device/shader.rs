@@ -22,7 +22,7 @@ pub struct Build {
 pub fn compose<'a>(
     build: Build,
     own: &[(&str, Value)],
-    structs: impl Iterator<Item = &'a Struct>,
+    structs: Vec<&Struct>,
     parts: impl Iterator<Item = &'a Part>,
     calls: &[(&str, String)],
 ) -> String {

@@ -4,6 +4,7 @@ use glam::Vec3;
 use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MethodFrame, Shown};
+use crate::clouds::packed;
 use crate::frame::Uniforms;
 use crate::geometry::part::Part;
 use crate::pack_data::PackData;
@@ -22,7 +23,8 @@ impl CloudMethod for Sprites {
     }
 
     fn parts(&self) -> &'static [Part] {
-        &[pipelines::PART, ring::PART]
+        // The dome shows the thin upper layer of the packed method.
+        &[packed::PART, pipelines::PART, ring::PART]
     }
 
     // Behind sprites there are none.

@@ -1,4 +1,4 @@
-//! What [`crate::SkyModel::Perez`] alone knows.
+//! What [`crate::params::SkyModel::Perez`] alone knows.
 
 use super::range::ParamError;
 
@@ -22,7 +22,7 @@ pub const CUSTOM: [[f32; 2]; 5] = [
     [0.0, 2.0],
 ];
 
-/// Where the numbers a to e of [`crate::SkyModel::Perez`]'s luminance come from.
+/// Where the numbers a to e of [`crate::params::SkyModel::Perez`]'s luminance come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -36,7 +36,7 @@ pub enum PerezShape {
     Custom([f32; 5]),
 }
 
-/// What [`crate::SkyModel::Perez`] alone knows.
+/// What [`crate::params::SkyModel::Perez`] alone knows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default))]

@@ -17,7 +17,7 @@
 //!
 //! # Practice
 //! A draw for each block of 16 square kilometres in sight, 64 bytes a sprite, eight vertices for near sprites and four for far ones.
-//! Sprites are drawn over the sky of another method, its dome ([`crate::SpriteParams::behind`]), in the target's own encoding: a float target
+//! Sprites are drawn over the sky of another method, its dome ([`crate::params::SpriteParams::behind`]), in the target's own encoding: a float target
 //! blends radiance, another one display light. They stand at their depth: a scene drawn before hides them, and
 //! what is drawn later should test depth against the scene alone, since sprites write none. It wants a target that can be blended with.
 

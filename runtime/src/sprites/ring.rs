@@ -16,7 +16,7 @@
 //! # Practice
 //! The ring remembers where it was made: with it a frame depends on those before, but for the first one, whose ring is made at once.
 //! A frame that draws one picture draws an eighth of the far sprites, at a thirtieth of the pixels of a screen. Where clouds are seen
-//! so far that a picture has more than [`BLOCKS_A_FRAME`] blocks, it takes several frames.
+//! so far that a picture has more than [`BLOCKS_A_FRAME`](super::station::BLOCKS_A_FRAME) blocks, it takes several frames.
 
 use glam::{DVec3, Vec2};
 

@@ -1,6 +1,6 @@
 //! Radiance as a picture that a display shows: the runtime's last step on the CPU, for maps that are put together from several frames.
 //!
-//! The same tone curve, encoding and dither as [`welkin_runtime::tonemap`], after the means were taken in linear light.
+//! The same tone curve, encoding and dither as [`welkin_runtime::internals::tonemap`], after the means were taken in linear light.
 
 use welkin_runtime::internals::tonemap::{KNEE, SHOULDER};
 

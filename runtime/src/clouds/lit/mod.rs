@@ -287,7 +287,7 @@ pub fn uniforms(
     }
 }
 
-/// The layers that are drawn, by their index in [`crate::LitParams::layers`], with what each covers.
+/// The layers that are drawn, by their index in [`crate::params::LitParams::layers`], with what each covers.
 pub(crate) fn drawn(params: &SkyParams) -> impl Iterator<Item = (usize, f32)> {
     let layers = params.lit.layers.iter().enumerate();
     layers
