@@ -39,7 +39,7 @@
 
 /// What the crate is made of, floor by floor, for its own tests: no part of what it promises.
 #[doc(hidden)]
-#[path = "."]
+#[path = ""]
 pub mod internals {
     pub mod clear_sky;
     pub mod clouds;
