@@ -92,6 +92,7 @@ impl Sky {
     ///
     /// # Errors
     /// As [`Sky::new`].
+    #[doc(hidden)]
     pub fn with_dome_mesh(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -336,7 +337,7 @@ impl Sky {
         program.map.as_ref().map(|map| map.texture())
     }
 
-    /// The shadows that the clouds of the prepared frame throw on the ground: see [`crate::clouds::lit::shadow`].
+    /// The shadows that the clouds of the prepared frame throw on the ground: see [`crate::shadow`].
     ///
     /// None without [`Method::Lit`], and where [`SkyParams::shadow_extent_m`] is 0.
     #[cfg(feature = "lit")]
@@ -368,7 +369,7 @@ impl Sky {
     }
 }
 
-/// The program of the parameters' method, with what they need.
+/// The pipelines of the parameters' method, with what they need.
 fn ensured<'a>(
     pipelines: &'a mut [Option<MethodPipelines>; Method::ALL.len()],
     context: &Context,
