@@ -23,6 +23,8 @@ export function layersControl(key, set, change) {
   /** Sets other layers; the focus goes where it was, or to the row that is told. */
   function put(next, focus = null) {
     if (!set(writeLayers(next))) return show(writeLayers(layers));
+    // What a person does before the next frame shows this one builds on it.
+    layers = next;
     if (focus !== null) list.children.item(focus < 0 ? list.children.length - 1 : focus)?.querySelector('select').focus();
   }
   const with_ = (i, part) => layers.map((layer, j) => (j === i ? { ...layer, ...part } : layer));
