@@ -108,7 +108,7 @@ pub fn uniforms(
         band: BAND * twilight,
         band_sharpness: BAND_SHARPNESS,
         overcast,
-        overcast_weight: overcast_weight,
+        overcast_weight,
         horizon_v: 0.5 / height,
         elevation_v: (height - 1.0) / height,
         ..Default::default()
