@@ -176,7 +176,7 @@ mod tests {
                 .iter()
                 .map(|e| e.name.as_str())
                 .collect();
-            let context = [
+            let common = [
                 "vs_screen",
                 "vs_dome",
                 "vs_map",
@@ -195,7 +195,7 @@ mod tests {
             ];
             let has_weather = cfg!(feature = "weather") && build.1.weather;
             let weather = if has_weather { &weather[..] } else { &[] };
-            let mut expected = [&context, own_entries(build.1.method), weather].concat();
+            let mut expected = [&common, own_entries(build.1.method), weather].concat();
             entries.sort_unstable();
             expected.sort_unstable();
             assert_eq!(entries, expected, "{build:?}");

@@ -1,4 +1,4 @@
-//! Twin of clouds.wgsl.
+//! Twin of clouds/shared.wgsl.
 
 use glam::Vec3;
 use welkin_pack::mapping;

@@ -1,4 +1,4 @@
-//! Twin of fbm_map.wgsl: the article's loop over up to eight layers, in floats.
+//! Twin of clouds/fbm/map.wgsl: the article's loop over up to eight layers, in floats.
 
 use welkin_pack::Image;
 use welkin_runtime::internals::clouds::fbm::FbmUniforms;

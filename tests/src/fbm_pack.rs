@@ -1,4 +1,4 @@
-//! Twin of fbm_pack.wgsl: the octaves of a pack, displaced for the sun as it stands.
+//! Twin of clouds/fbm/pack.wgsl: the octaves of a pack, displaced for the sun as it stands.
 
 use welkin_pack::role::Wrap;
 use welkin_pack::{Image, Pack, Role};

@@ -2,7 +2,8 @@
 //!
 //! A twin is the same computation in plain Rust, written from the same formulas: file for file, name for
 //! name. It reads the pack's own levels and the uniforms that the runtime computed, so that a difference
-//! means that shader and formulas disagree.
+//! means that shader and formulas disagree. A method's `map.wgsl` and `pack.wgsl` are `METHOD_map.rs` and
+//! `METHOD_pack.rs` here; `clouds.rs` is `clouds/shared.wgsl`, `sky.rs` is `gradient.wgsl`, `renderer.rs` is `sky/sky.wgsl`.
 
 pub mod camera;
 pub mod clouds;

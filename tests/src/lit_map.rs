@@ -1,4 +1,4 @@
-//! Twin of lit_map.wgsl: each layer of the map, and what texture units may make of it.
+//! Twin of clouds/lit/map.wgsl: each layer of the map, and what texture units may make of it.
 
 use welkin_pack::{Image, LayerKind, Pack, Role};
 use welkin_runtime::internals::clouds::lit::map::{LEAST_UP, WEIGHTS};

@@ -1,4 +1,4 @@
-//! Twin of map.wgsl: the levels of a map.
+//! Twin of device/map.wgsl: the levels of a map.
 
 use welkin_pack::Image;
 use welkin_pack::role::Wrap;

@@ -1,4 +1,4 @@
-//! Twin of octaves_map.wgsl: the filter as sixteen weighted texels, the spline by its definition.
+//! Twin of clouds/octaves/map.wgsl: the filter as sixteen weighted texels, the spline by its definition.
 
 use std::ops::Range;
 

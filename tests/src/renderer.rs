@@ -1,4 +1,4 @@
-//! Twin of renderer.wgsl: whole pictures on the CPU.
+//! Twin of sky/sky.wgsl: whole pictures on the CPU.
 
 use glam::{Vec2, Vec3};
 use welkin_pack::{Image, Pack, Role};

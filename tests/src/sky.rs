@@ -1,4 +1,4 @@
-//! Twin of sky.wgsl.
+//! Twin of clear_sky/gradient.wgsl.
 
 use glam::{Vec3, Vec3Swizzles};
 use welkin_runtime::internals::clear_sky::gradient::{GROUND_FALL, GROUND_FLOOR};

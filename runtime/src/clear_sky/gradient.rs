@@ -7,7 +7,7 @@
 //! twilight the light comes from below the horizon: a band along it, strongest on the sun's side.
 //!
 //! # Changes versus the paper
-//! Roden and Parberry blend one blue gradient with the night; this one knows the time of day. Under a shut
+//! Roden and Parberry blend one blue gradient with the night; this one knows the time of day. Under an overcast
 //! sky there is no blue left to see on the horizon either: it takes the mean colour of the clouds.
 //!
 //! # Practice

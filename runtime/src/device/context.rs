@@ -1,4 +1,4 @@
-//! What every program is made from.
+//! What every pipeline is made from.
 
 use super::config::SkyConfig;
 use super::layouts::Layouts;
@@ -17,7 +17,7 @@ pub struct Dome {
     pub weather: bool,
 }
 
-/// What every program is made from.
+/// What every pipeline is made from.
 #[derive(Debug)]
 pub(crate) struct Context {
     pub device: wgpu::Device,

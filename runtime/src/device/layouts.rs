@@ -2,7 +2,7 @@
 
 use welkin_pack::Role;
 
-/// Bindings of the textures, as uniforms.wgsl declares them.
+/// Bindings of the textures, as frame.wgsl declares them.
 pub(crate) const TEXTURES: [(u32, Role); 6] = [
     (3, Role::Clouds),
     (4, Role::Stars),

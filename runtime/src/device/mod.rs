@@ -1,4 +1,4 @@
-//! What every pass needs of a device: layouts, pipelines, textures, the shader's text. It knows no method by name.
+//! What every pass needs of a device: layouts, pipelines, textures, the shader's text. It knows no method, but for the layout that the dome of `lit` needs.
 
 pub mod config;
 pub mod context;

@@ -12,8 +12,8 @@
 //! converge to the analytic ones with the square of the step.
 //!
 //! # Practice
-//! One square root and a handful of multiplications a pixel. The mesh is for tests and for engines
-//! that want to place things on the dome; [`crate::Sky`] does not need it.
+//! One square root and a handful of multiplications a pixel. The mesh is for tests;
+//! [`crate::Sky::new`] does not need it.
 
 use glam::Vec3;
 

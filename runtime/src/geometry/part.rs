@@ -1,6 +1,6 @@
 //! A part of the shader: a WGSL file, and the constants and structs that Rust and WGSL share.
 //!
-//! Every pass owns its uniforms, its constants and its WGSL, and hands over one `PART`; `parts.rs` lists them.
+//! Every pass owns its uniforms, its constants and its WGSL, and hands over one `PART`: `parts.rs` lists what every dome needs, `methods/` what each method does.
 
 use std::fmt::Write;
 

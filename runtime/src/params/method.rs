@@ -5,7 +5,7 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Method {
-    /// One packed texture: T. Roden, I. Parberry, ACE 2005. See [`crate::clouds::shared`].
+    /// One packed texture: T. Roden, I. Parberry, ACE 2005. See [`crate::clouds::packed`].
     #[default]
     Packed,
     /// Octaves of white noise that form anew: S. Guthikonda et al., USC. See [`crate::clouds::octaves`].

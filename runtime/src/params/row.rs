@@ -1,4 +1,4 @@
-//! Rows of a table of settings: what most of them have in context.
+//! Rows of a table of settings: what most of them have in common.
 
 use super::method::Method;
 use super::setting::{

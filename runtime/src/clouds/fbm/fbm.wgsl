@@ -1,4 +1,4 @@
-// Clouds of the fbm method: one map of drifting octaves. Theory and CPU part: fbm.rs.
+// Clouds of the fbm method: one map of drifting octaves. Theory and CPU part: mod.rs.
 
 // Radiance and opacity of the clouds along a unit direction above the horizon.
 fn fbm_layer(direction: vec3f, narrowing: f32) -> vec4f {

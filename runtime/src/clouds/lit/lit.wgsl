@@ -1,4 +1,4 @@
-// Clouds of the lit method: layers with normals on an oblate hemisphere. Theory and CPU part: lit.rs.
+// Clouds of the lit method: layers with normals on an oblate hemisphere. Theory and CPU part: mod.rs.
 
 // Distance to the dome along a unit direction, in its heights.
 fn lit_intersect(direction: vec3f) -> f32 {

@@ -1,4 +1,4 @@
-// Clouds of the octaves method: three domes over one map of summed octaves. Theory and CPU part: octaves.rs.
+// Clouds of the octaves method: three domes over one map of summed octaves. Theory and CPU part: mod.rs.
 
 fn octaves_uv(dome: OctaveDome, plane: vec2f) -> vec2f {
     return dome.east_axis * plane.x + dome.south_axis * plane.y + dome.offset;

@@ -1,4 +1,4 @@
-// Clouds of the packed texture: lines 14 to 28 of the paper's shader. Theory, changes, CPU part: packed.rs.
+// Clouds of the packed texture: lines 14 to 28 of the paper's shader. Theory, changes, CPU part: mod.rs.
 
 fn packed_sample(uv: vec2f, level: f32) -> vec4f {
     return textureSampleLevel(clouds_texture, repeat_sampler, uv, level);
