@@ -183,12 +183,11 @@ impl Sky {
     /// # Errors
     /// [`SkyError::MissingField`] for [`Method::Sprites`] with a pack that has no clouds in space: it then draws the dome alone.
     pub fn supports(&self, method: Method) -> Result<(), SkyError> {
-        #[cfg(feature = "sprites")]
-        if method == Method::Sprites && !self.sprites.has_field() {
-            return Err(SkyError::MissingField);
+        match method {
+            #[cfg(feature = "sprites")]
+            Method::Sprites if !self.sprites.has_field() => Err(SkyError::MissingField),
+            _ => Ok(()),
         }
-        let _ = method;
-        Ok(())
     }
 
     /// Forgets what [`Method::Sprites`] keeps of earlier frames, its ring of impostors and the facing of sprites near the viewer: the next
@@ -232,8 +231,8 @@ impl Sky {
         #[cfg(feature = "sprites")]
         let uniforms = self.record_sprites(queue, encoder, &clamped, camera, seconds, uniforms);
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&uniforms));
-        let program = ensured(&mut self.pipelines, &self.context, &params);
-        if let Some(map) = &mut program.map {
+        let own = ensured(&mut self.pipelines, &self.context, &params);
+        if let Some(map) = &mut own.map {
             let frame = MapFrame {
                 params: &params,
                 seconds,
@@ -246,11 +245,11 @@ impl Sky {
         #[cfg(feature = "weather")]
         let weather = overlays::shown(&uniforms.rays, &uniforms.rain);
         #[cfg(feature = "weather")]
-        program.record_weather(&self.context, weather, encoder, &self.shared);
+        own.record_weather(&self.context, weather, encoder, &self.shared);
         // A flash that is told is made ready for before it begins.
         #[cfg(feature = "weather")]
         if variant.weather || params.weather.lightning.strength > 0.0 {
-            program.ensure_sky(&self.context, params.sky, true);
+            own.ensure_sky(&self.context, params.sky, true);
         }
         self.prepared = Some(Prepared {
             method: params.method,
@@ -295,14 +294,14 @@ impl Sky {
     ///
     /// Before the first [`Sky::prepare`] there is nothing to draw.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        let Some((prepared, program)) = self.current() else {
+        let Some((prepared, own)) = self.current() else {
             return;
         };
-        let Some(pipeline) = program.pipeline(prepared.sky, prepared.variant) else {
+        let Some(pipeline) = own.pipeline(prepared.sky, prepared.variant) else {
             return;
         };
         pass.set_bind_group(0, &self.shared, &[]);
-        if let Some(map) = &program.map {
+        if let Some(map) = &own.map {
             pass.set_bind_group(1, map.group(), &[]);
         }
         pass.set_pipeline(pipeline);
@@ -318,10 +317,10 @@ impl Sky {
         #[cfg(feature = "sprites")]
         self.sprites.draw(pass, prepared.sky);
         #[cfg(feature = "weather")]
-        program.weather.draw(pass, prepared.weather);
-        if let Some(flare) = program.flare.as_ref().filter(|_| prepared.flare) {
+        own.weather.draw(pass, prepared.weather);
+        if let Some(flare) = own.flare.as_ref().filter(|_| prepared.flare) {
             pass.set_pipeline(flare);
-            if let Some(map) = &program.map {
+            if let Some(map) = &own.map {
                 pass.set_bind_group(1, map.group(), &[]);
             }
             pass.draw(0..4, 0..flares::COUNT);
@@ -333,8 +332,8 @@ impl Sky {
     /// Its red channel is the amount of cloud ([`Method::Octaves`], before cover) or the shade ([`Method::Fbm`], with
     /// the cover in alpha). That of [`Method::Lit`] is an array, a layer each (see [`crate::clouds::lit::map`]); its last one is empty.
     pub fn cloud_map(&self) -> Option<&wgpu::Texture> {
-        let (_, program) = self.current()?;
-        program.map.as_ref().map(|map| map.texture())
+        let (_, own) = self.current()?;
+        own.map.as_ref().map(|map| map.texture())
     }
 
     /// The shadows that the clouds of the prepared frame throw on the ground: see [`crate::shadow`].
@@ -342,10 +341,10 @@ impl Sky {
     /// None without [`Method::Lit`], and where [`SkyParams::shadow_extent_m`] is 0.
     #[cfg(feature = "lit")]
     pub fn shadow(&self) -> Option<Shadow<'_>> {
-        let (prepared, program) = self.current()?;
+        let (prepared, own) = self.current()?;
         let area = prepared.shadow?;
         Some(Shadow {
-            texture: program.map.as_ref()?.shadow()?,
+            texture: own.map.as_ref()?.shadow()?,
             centre_m: area.centre_m.as_vec2().to_array(),
             extent_m: area.extent_m as f32,
         })
@@ -376,9 +375,9 @@ fn ensured<'a>(
     params: &SkyParams,
 ) -> &'a mut MethodPipelines {
     let new = || MethodPipelines::new(context, params);
-    let program = pipelines[params.method as usize].get_or_insert_with(new);
-    program.ensure(context, params);
-    program
+    let own = pipelines[params.method as usize].get_or_insert_with(new);
+    own.ensure(context, params);
+    own
 }
 
 fn dome_buffers(device: &wgpu::Device, step_deg: f32) -> DomeBuffers {

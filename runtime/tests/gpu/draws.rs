@@ -112,20 +112,21 @@ fn means(frames: &[SkyParams]) -> Vec<[f32; 3]> {
 
 #[test]
 fn every_method_draws_blue_noons_grey_overcasts_and_dark_nights() {
-    for (method, sky) in Method::ALL
-        .into_iter()
-        .flat_map(|method| SkyModel::ALL.map(|sky| (method, sky)))
-    {
-        let at = |time: f32, cover: f32| SkyParams {
+    let skies = |method| SkyModel::ALL.map(move |sky| (method, sky));
+    let domes: Vec<_> = Method::ALL.into_iter().flat_map(skies).collect();
+    let frames = domes.iter().flat_map(|&(method, sky)| {
+        [(0.5, 0.0), (0.5, 1.0), (0.0, 0.0)].map(|(time, cover)| SkyParams {
             method,
             sky,
             time,
             cover,
             ..SkyParams::default()
-        };
-        let means = means(&[at(0.5, 0.0), at(0.5, 1.0), at(0.0, 0.0)]);
-        let [clear, overcast, night] = means[..] else {
-            unreachable!("as many frames as parameters")
+        })
+    });
+    let means = means(&frames.collect::<Vec<_>>());
+    for ((method, sky), means) in domes.iter().zip(means.chunks(3)) {
+        let [clear, overcast, night] = *means else {
+            unreachable!("three frames of each")
         };
         // How far from white: 0 for grey.
         let blueness = |[red, _, blue]: [f32; 3]| blue / red.max(1e-3) - 1.0;
