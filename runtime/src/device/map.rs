@@ -34,22 +34,6 @@ pub(crate) struct Map {
 pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 impl Map {
-    /// An empty plane of `side` texels a side.
-    pub fn plane(
-        device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        layouts: &Layouts,
-        side: u32,
-    ) -> Map {
-        let averaging = layouts.off_screen(device, module, "fs_level", &layouts.texture, FORMAT);
-        Map::new(device, layouts, vec![averaging], [side, 1])
-    }
-
-    /// An empty plane of another size, by the same pipeline.
-    pub fn resized(&self, device: &wgpu::Device, layouts: &Layouts, side: u32) -> Map {
-        Map::new(device, layouts, self.averaging.clone(), [side, 1])
-    }
-
     /// An empty map of texels a side, a power of two, and layers, 1 for a plane. `averaging` makes its levels: a pipeline for each set of
     /// layers that is drawn at once.
     pub fn new(
@@ -93,11 +77,6 @@ impl Map {
         }
     }
 
-    /// Group 1 of a dome that reads a plane.
-    pub fn group(&self, device: &wgpu::Device, layouts: &Layouts) -> wgpu::BindGroup {
-        layouts.texture_group(device, &self.texture.create_view(&Default::default()))
-    }
-
     /// Draws level 0 of one set of layers by `pipeline` from `source`, then the levels below it.
     pub fn record(
         &self,
@@ -116,6 +95,65 @@ impl Map {
             draw_into(encoder, targets, pipeline, [shared, source]);
         }
     }
+}
+
+/// A plane, and what draws it from an array of textures.
+#[derive(Debug)]
+pub(crate) struct Plane {
+    map: Map,
+    source: wgpu::BindGroup,
+    pipeline: wgpu::RenderPipeline,
+    /// Group 1 of the dome.
+    pub group: wgpu::BindGroup,
+}
+
+impl Plane {
+    /// An empty plane of `side` texels a side, a power of two, that an entry point draws from an array.
+    pub fn new(
+        device: &wgpu::Device,
+        module: &wgpu::ShaderModule,
+        layouts: &Layouts,
+        (entry, side): (&str, u32),
+        source: &wgpu::Texture,
+    ) -> Plane {
+        let averaging = layouts.off_screen(device, module, "fs_level", &layouts.texture, FORMAT);
+        let map = Map::new(device, layouts, vec![averaging], [side, 1]);
+        Plane {
+            source: layouts.layers_group(device, source),
+            pipeline: layouts.off_screen(device, module, entry, &layouts.layers, FORMAT),
+            group: plane_group(device, layouts, &map),
+            map,
+        }
+    }
+
+    /// Another array to draw it from.
+    pub fn set_source(&mut self, device: &wgpu::Device, layouts: &Layouts, source: &wgpu::Texture) {
+        self.source = layouts.layers_group(device, source);
+    }
+
+    /// Makes it anew if it is of another size.
+    pub fn resize(&mut self, device: &wgpu::Device, layouts: &Layouts, side: u32) {
+        if self.map.texture.width() != side {
+            let averaging = self.map.averaging.clone();
+            self.map = Map::new(device, layouts, averaging, [side, 1]);
+            self.group = plane_group(device, layouts, &self.map);
+        }
+    }
+
+    /// Draws it and its levels.
+    pub fn record(&self, encoder: &mut wgpu::CommandEncoder, shared: &wgpu::BindGroup) {
+        let pipeline = (0, &self.pipeline);
+        self.map.record(encoder, shared, pipeline, &self.source);
+    }
+
+    /// The map itself.
+    pub fn texture(&self) -> &wgpu::Texture {
+        &self.map.texture
+    }
+}
+
+fn plane_group(device: &wgpu::Device, layouts: &Layouts, map: &Map) -> wgpu::BindGroup {
+    layouts.texture_group(device, &map.texture.create_view(&Default::default()))
 }
 
 /// A texture that is drawn into and read. `size` is width, height and layers.

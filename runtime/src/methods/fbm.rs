@@ -69,14 +69,14 @@ impl MapPass for map::Pass {
     }
 
     fn group(&self) -> &wgpu::BindGroup {
-        &self.group
+        &self.map.group
     }
 
     fn texture(&self) -> &wgpu::Texture {
-        &self.map.texture
+        self.map.texture()
     }
 
     fn bytes(&self) -> u64 {
-        texture_bytes(self.packing.texture()) + texture_bytes(&self.map.texture)
+        texture_bytes(self.packing.texture()) + texture_bytes(self.texture())
     }
 }

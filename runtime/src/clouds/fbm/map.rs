@@ -23,7 +23,7 @@ use welkin_pack::Texture;
 
 use crate::clouds::fbm::pack;
 use crate::device::layouts::Layouts;
-use crate::device::map::{FORMAT, Map};
+use crate::device::map::Plane;
 use crate::geometry::part::{Part, Value};
 
 /// Its part of the shader.
@@ -130,12 +130,8 @@ pub fn offsets(way: f64) -> [[f32; 2]; MAX_OCTAVES] {
 #[derive(Debug)]
 pub(crate) struct Pass {
     pub packing: pack::Pass,
-    source: wgpu::BindGroup,
-    pipeline: wgpu::RenderPipeline,
     /// What it draws.
-    pub map: Map,
-    /// Group 1 of the dome.
-    pub group: wgpu::BindGroup,
+    pub map: Plane,
 }
 
 impl Pass {
@@ -147,12 +143,9 @@ impl Pass {
         octaves: &wgpu::Texture,
     ) -> Pass {
         let packing = pack::Pass::new(device, module, layouts, octaves);
-        let map = Map::plane(device, module, layouts, SIDE);
+        let drawn = ("fs_fbm_map", SIDE);
         Pass {
-            source: layouts.layers_group(device, packing.texture()),
-            pipeline: layouts.off_screen(device, module, "fs_fbm_map", &layouts.layers, FORMAT),
-            group: map.group(device, layouts),
-            map,
+            map: Plane::new(device, module, layouts, drawn, packing.texture()),
             packing,
         }
     }
@@ -165,8 +158,7 @@ impl Pass {
         step: Vec2,
     ) {
         self.packing.record(encoder, shared, step);
-        self.map
-            .record(encoder, shared, (0, &self.pipeline), &self.source);
+        self.map.record(encoder, shared);
     }
 }
 

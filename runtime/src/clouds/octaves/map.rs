@@ -25,7 +25,7 @@
 use half::f16;
 
 use crate::device::layouts::{Layouts, array_layers};
-use crate::device::map::{FORMAT, Map};
+use crate::device::map::Plane;
 use crate::geometry::math::{NORMAL_BEND, NORMAL_SLOPE, mix};
 use crate::geometry::part::{Part, Value};
 use crate::params::{MAX_OCTAVES, SkyParams};
@@ -181,12 +181,8 @@ impl Place {
 #[derive(Debug)]
 pub(crate) struct Pass {
     pub states: wgpu::Texture,
-    source: wgpu::BindGroup,
-    pipeline: wgpu::RenderPipeline,
     /// What it draws.
-    pub map: Map,
-    /// Group 1 of the dome.
-    pub group: wgpu::BindGroup,
+    pub map: Plane,
 }
 
 impl Pass {
@@ -197,12 +193,9 @@ impl Pass {
         count: u32,
     ) -> Pass {
         let states = states_texture(device, count);
-        let map = Map::plane(device, module, layouts, side(count));
+        let drawn = ("fs_octaves_map", side(count));
         Pass {
-            source: layouts.layers_group(device, &states),
-            pipeline: layouts.off_screen(device, module, "fs_octaves_map", &layouts.layers, FORMAT),
-            group: map.group(device, layouts),
-            map,
+            map: Plane::new(device, module, layouts, drawn, &states),
             states,
         }
     }
@@ -211,12 +204,9 @@ impl Pass {
     pub fn resize(&mut self, device: &wgpu::Device, layouts: &Layouts, count: u32) {
         if self.states.depth_or_array_layers() != array_layers(count) {
             self.states = states_texture(device, count);
-            self.source = layouts.layers_group(device, &self.states);
+            self.map.set_source(device, layouts, &self.states);
         }
-        if self.map.texture.width() != side(count) {
-            self.map = self.map.resized(device, layouts, side(count));
-            self.group = self.map.group(device, layouts);
-        }
+        self.map.resize(device, layouts, side(count));
     }
 
     /// Uploads the states of the octaves and records the pass.
@@ -241,8 +231,7 @@ impl Pass {
             ..self.states.size()
         };
         queue.write_texture(self.states.as_image_copy(), &bytes, layout, size);
-        self.map
-            .record(encoder, shared, (0, &self.pipeline), &self.source);
+        self.map.record(encoder, shared);
     }
 }
 
