@@ -22,7 +22,7 @@ use crate::limits::{MAX_LAYERS, MAX_SIDE, MAX_TEXTURE_BYTES};
 use crate::texture::Texture;
 
 #[cfg(feature = "write")]
-pub use write::encode;
+pub use write::{encode, encode_with};
 
 /// The largest window of a compressed level that is read whatever the level's size: 8 MiB, which RFC 8878, section
 /// 3.1.1.1.2, recommends to support.
@@ -297,7 +297,6 @@ mod write {
     use zstd::bulk::Compressor;
     use zstd::zstd_safe::{CParameter, Strategy};
 
-    use super::key_values::{ORIENTATION, ORIENTATION_KEY};
     use super::*;
 
     /// The compressor's settings. Texels repeat three of their four bytes (the sunset gradient beside smooth
@@ -324,6 +323,20 @@ mod write {
     /// # Errors
     /// [`PackError::Value`] if a level cannot be compressed.
     pub fn encode(file: &str, texture: &Texture, writer: &str) -> Result<Vec<u8>, PackError> {
+        encode_with(file, texture, writer, &[])
+    }
+
+    /// The same with key/value data of an application: keys that do not begin with `KTX` or `ktx`, and texts, which are stored with
+    /// a NUL at their end.
+    ///
+    /// # Errors
+    /// [`PackError::Value`] if a level cannot be compressed, or for a key that the specification does not allow.
+    pub fn encode_with(
+        file: &str,
+        texture: &Texture,
+        writer: &str,
+        texts: &[(&str, &str)],
+    ) -> Result<Vec<u8>, PackError> {
         let levels: Vec<Vec<u8>> = compressor()
             .and_then(|mut compressor| {
                 let levels = texture.levels.iter();
@@ -332,7 +345,7 @@ mod write {
             .map_err(|e| PackError::value(file, "levels", e, "compressed texels"))?;
         let (basic, type_size) = descriptor(file, texture.format)?;
         let dfd = descriptor_section(&basic);
-        let kvd = key_values(writer);
+        let kvd = key_values::encode(file, writer, texts)?;
         let dfd_start = Header::LENGTH + levels.len() * LevelIndex::LENGTH;
         let header = Header {
             format: Some(texture.format.vk()),
@@ -383,18 +396,5 @@ mod write {
             offset += packed.len() as u64;
         }
         entries.into_iter().rev().flatten().collect()
-    }
-
-    /// Key/value data, keys in code point order, each entry padded to four bytes.
-    fn key_values(writer: &str) -> Vec<u8> {
-        let writer = [writer.as_bytes(), b"\0"].concat();
-        let mut bytes = Vec::new();
-        for (key, value) in [(ORIENTATION_KEY, ORIENTATION), ("KTXwriter", &writer)] {
-            let entry = [key.as_bytes(), b"\0", value].concat();
-            bytes.extend((entry.len() as u32).to_le_bytes());
-            bytes.extend(entry);
-            bytes.resize(bytes.len().next_multiple_of(4), 0);
-        }
-        bytes
     }
 }

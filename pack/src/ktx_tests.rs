@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use crate::error::PackError;
 use crate::format::{Format, Shape};
-use crate::ktx::{decode, encode};
+use crate::ktx::{decode, encode, encode_with};
 use crate::role::Mips;
 use crate::texture::{Texture, level_size};
 
@@ -91,6 +91,33 @@ fn key_values_are_what_the_specification_asks() {
         reader.transfer_function(),
         Some(ktx2::TransferFunction::Linear)
     );
+}
+
+#[test]
+fn texts_of_an_application_stand_among_the_keys_in_order() {
+    let texture = texture(Format::Rgba16Float, Shape::Cube, 8, 8, 6, Mips::All);
+    let with = |texts| encode_with("t.ktx2", &texture, "welkin test", texts);
+    let bytes = with(&[("skyScale", "4"), ("Azimuth", "north")]).unwrap();
+    let reader = ktx2::Reader::new(&bytes[..]).unwrap();
+    assert_eq!(
+        reader.key_value_data().collect::<Vec<_>>(),
+        [
+            ("Azimuth", &b"north\0"[..]),
+            ("KTXorientation", &b"rd\0"[..]),
+            ("KTXwriter", &b"welkin test\0"[..]),
+            ("skyScale", &b"4\0"[..]),
+        ]
+    );
+    assert_eq!(decode("t.ktx2", &bytes).unwrap(), texture);
+    // What the specification keeps for itself, twice the same, and no key at all.
+    for texts in [
+        &[("KTXscale", "4")][..],
+        &[("KTXwriter", "me")],
+        &[("a", "1"), ("a", "2")],
+        &[("", "1")],
+    ] {
+        assert!(with(texts).is_err(), "{texts:?}");
+    }
 }
 
 #[test]

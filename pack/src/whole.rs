@@ -27,18 +27,35 @@ pub fn write_file(
     bytes: &[u8],
     cancelled: &dyn Fn() -> bool,
 ) -> Result<(), WriteError> {
-    let file = || path.display().to_string();
-    if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
-        return Err(WriteError::NotAFile { file: file() });
+    write_files(&[(path, bytes)], cancelled)
+}
+
+/// Writes files that belong together, as [`write_file`] does each: all are complete before the first is put in its place.
+///
+/// # Errors
+/// Those of [`write_file`]. Nothing is changed then, unless the system refuses to rename another than the first.
+pub fn write_files(
+    files: &[(&Path, &[u8])],
+    cancelled: &dyn Fn() -> bool,
+) -> Result<(), WriteError> {
+    let mut made = Vec::with_capacity(files.len());
+    for &(path, bytes) in files {
+        if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+            let file = path.display().to_string();
+            return Err(WriteError::NotAFile { file });
+        }
+        let place = output(path)?.path();
+        let failed = |reason| WriteError::failed(path, reason);
+        let temporary = Temporary::beside(&place).map_err(failed)?;
+        fill(temporary.new_path(), bytes).map_err(failed)?;
+        made.push((path, place, temporary));
     }
-    let place = output(path)?.path();
-    let failed = |reason| WriteError::failed(path, reason);
-    let temporary = Temporary::beside(&place).map_err(failed)?;
-    fill(temporary.new_path(), bytes).map_err(failed)?;
     if cancelled() {
         return Err(WriteError::Cancelled);
     }
-    fs::rename(temporary.new_path(), &place).map_err(failed)
+    made.iter().try_for_each(|(path, place, temporary)| {
+        fs::rename(temporary.new_path(), place).map_err(|reason| WriteError::failed(path, reason))
+    })
 }
 
 /// A folder in the making. Dropped before [`Folder::publish`], it leaves nothing.

@@ -4,9 +4,9 @@
 use crate::error::PackError;
 
 /// Which way rows and columns go.
-pub(super) const ORIENTATION_KEY: &str = "KTXorientation";
+const ORIENTATION_KEY: &str = "KTXorientation";
 /// Columns go right, rows go down: what [`crate::Texture`] holds.
-pub(super) const ORIENTATION: &[u8] = b"rd\0";
+const ORIENTATION: &[u8] = b"rd\0";
 /// The program that wrote the file.
 const WRITER_KEY: &str = "KTXwriter";
 /// What it told its compressor.
@@ -14,6 +14,36 @@ const WRITER_PARAMETERS_KEY: &str = "KTXwriterScParams";
 
 /// An entry has this many bytes at least: one of a key, and the NUL that ends it.
 const LEAST_ENTRY: usize = 2;
+
+/// The section: which way rows and columns go, the writer, and texts of an application; keys in code point order, each entry padded to four
+/// bytes.
+///
+/// # Errors
+/// [`PackError::Value`] for a key that the specification does not allow.
+#[cfg(feature = "write")]
+pub(super) fn encode(
+    file: &str,
+    writer: &str,
+    texts: &[(&str, &str)],
+) -> Result<Vec<u8>, PackError> {
+    let text = |value: &str| [value.as_bytes(), b"\0"].concat();
+    let own = [
+        (ORIENTATION_KEY, ORIENTATION.to_vec()),
+        (WRITER_KEY, text(writer)),
+    ];
+    let texts = texts.iter().map(|(key, value)| (*key, text(value)));
+    let mut entries: Vec<_> = own.into_iter().chain(texts).collect();
+    entries.sort();
+    let mut bytes = Vec::new();
+    for (key, value) in entries {
+        let entry = [key.as_bytes(), b"\0", &value].concat();
+        bytes.extend((entry.len() as u32).to_le_bytes());
+        bytes.extend(entry);
+        bytes.resize(bytes.len().next_multiple_of(4), 0);
+    }
+    verify(file, &bytes)?;
+    Ok(bytes)
+}
 
 /// Looks at every entry of the section.
 pub(super) fn verify(file: &str, section: &[u8]) -> Result<(), PackError> {

@@ -373,6 +373,21 @@ fn a_file_is_replaced_whole_and_errors_name_it() {
     );
 }
 
+#[test]
+fn files_that_belong_together_are_written_together() {
+    let (desk, sky) = desk();
+    let light = desk.path().join("light");
+    write_files(&[(&sky, b"old"), (&light, b"old")], &never).unwrap();
+    write_files(&[(&sky, b"new"), (&light, b"new")], &never).unwrap();
+    let nowhere = light.join("below");
+    for second in [&nowhere, desk.path()] {
+        assert!(write_files(&[(&sky, b"newer"), (second, b"newer")], &never).is_err());
+    }
+    assert!(write_files(&[(&sky, b"newer"), (&light, b"newer")], &|| true).is_err());
+    assert_eq!([&sky, &light].map(|file| text(file)), ["new", "new"]);
+    assert_eq!(names(desk.path()), ["light", "sky"]);
+}
+
 #[cfg(unix)]
 #[test]
 fn a_link_to_a_file_stays_a_link() {
