@@ -1,6 +1,7 @@
 //! The command line: every option with its range. Angles are in degrees here and nowhere else.
 
 mod bench;
+mod cube;
 mod export;
 mod given;
 mod render;
@@ -14,6 +15,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 pub use bench::{BenchArgs, Protocol};
+pub use cube::CubeArgs;
 pub use export::Shot;
 pub use render::RenderArgs;
 pub use window::WindowArgs;
@@ -33,6 +35,9 @@ pub struct Cli {
 pub enum Command {
     /// Draw without a window: a frame, an environment map, or a sequence of either, as PNG (8-bit sRGB), or EXR, HDR or KTX2 (linear radiance)
     Render(Box<RenderArgs>),
+    /// Make image-based light of any panorama: a cube map with levels for rough surfaces, as KTX2, and the irradiance as nine spherical
+    /// harmonics beside it, as JSON
+    Cube(CubeArgs),
     /// Time each method's sky and two reference passes on the GPU
     Bench(BenchArgs),
 }
@@ -54,7 +59,7 @@ impl Cli {
         let agreed = match &cli.command {
             Some(Command::Render(args)) => args.refuse_others(given),
             Some(Command::Bench(args)) => args.refuse_others(),
-            None => Ok(()),
+            Some(Command::Cube(_)) | None => Ok(()),
         };
         agreed.map_err(|message| {
             let subcommand = command.find_subcommand_mut(name);
@@ -118,6 +123,10 @@ mod tests {
         }
         for (name, words) in [
             ("render", &["welkin-view", "render", "p", "-o", "f.png"][..]),
+            (
+                "cube",
+                &["welkin-view", "cube", "p.hdr", "-o", "c.ktx2"][..],
+            ),
             ("bench", &["welkin-view", "bench", "p"][..]),
         ] {
             let options = numeric(command.find_subcommand(name).unwrap());

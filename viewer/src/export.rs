@@ -3,7 +3,8 @@
 //! # Theory
 //! N. Greene, "Environment Mapping and Other Applications of World Projections", IEEE CG&A 6(11), 1986. The six faces of a cube
 //! are drawn, each by a camera that sees 90 degrees ([`cube`], [`faces`]); a cube map ([`cubemap`]) is their means over its texels, a
-//! panorama ([`equirect`]) the mean of the directions that a texel covers.
+//! panorama ([`equirect`]) the mean of the directions that a texel covers. As light on things ([`light`]) a cube map has levels for rough surfaces
+//! ([`prefilter`]) and its irradiance beside it ([`harmonics`]); so has the cube map of anyone's panorama ([`panorama`]).
 //!
 //! # Practice
 //! Nothing of a sky may depend on the screen then, or faces would not meet. What the runtime takes of the screen is the angle of a pixel, which
@@ -16,6 +17,10 @@ pub mod cubemap;
 pub mod display;
 pub mod equirect;
 pub mod faces;
+pub mod harmonics;
+pub mod light;
+pub mod panorama;
+pub mod prefilter;
 pub mod sequence;
 
 use half::f16;

@@ -5,7 +5,9 @@
 
 mod bench;
 mod cli;
+mod cube;
 mod render;
+mod save_light;
 mod told;
 #[cfg(feature = "window")]
 mod window;
@@ -22,12 +24,13 @@ fn main() -> ExitCode {
     let cli = Cli::read(std::env::args_os()).unwrap_or_else(|e| e.exit());
     let done = match cli.command {
         Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Cube(args)) => cube::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
         #[cfg(feature = "window")]
         None => window::run(&cli.window),
         #[cfg(not(feature = "window"))]
         None => Err(anyhow::anyhow!(
-            "this welkin-view was built without its window; use `render` or `bench`, or build it with `--features window`"
+            "this welkin-view was built without its window; use `render`, `cube` or `bench`, or build it with `--features window`"
         )),
     };
     match done {

@@ -10,11 +10,14 @@ use welkin_pack::place::verify_apart;
 use welkin_pack::whole::sweep_beside;
 use welkin_pack::{Pack, Role};
 use welkin_runtime::{Method, Oktas, SkyError, SkyParams};
+use welkin_viewer::export::Environment;
+use welkin_viewer::export::light::Light;
 use welkin_viewer::gpu::Gpu;
 use welkin_viewer::headless::render;
 use welkin_viewer::save::save;
 
 use crate::cli::{RenderArgs, Shot};
+use crate::save_light::{self, json_path};
 use crate::told::tell_leftovers;
 use artist::Artist;
 
@@ -24,7 +27,9 @@ const MOST_OFF_OKTAS: f32 = 0.5;
 pub fn run(args: &RenderArgs) -> Result<()> {
     // The name is checked before anything slow begins.
     let shot = args.shot().map_err(Error::msg)?;
-    let outputs = [Some(&args.output), args.shadow.as_ref()];
+    let prefiltered = args.export.prefiltered;
+    let json = prefiltered.then(|| json_path(&args.output));
+    let outputs = [Some(&args.output), args.shadow.as_ref(), json.as_ref()];
     let outputs: Vec<&Path> = outputs.into_iter().flatten().map(AsRef::as_ref).collect();
     verify_apart(&[&args.pack], &outputs)?;
     let pack = Pack::open(&args.pack)?;
@@ -54,6 +59,10 @@ pub fn run(args: &RenderArgs) -> Result<()> {
                 save(file, shadow)?;
             }
             Ok(())
+        }
+        (Shot::Ktx2(side), None) if prefiltered => {
+            let map = Environment::new(&gpu, &pack)?.cubemap(&view, side)?;
+            save_light::save(&Light::of(map), &args.output, &args.pack)
         }
         (shot, sequence) => {
             let settings = &args.settings;

@@ -1,6 +1,6 @@
 //! Frames as picture files. A file appears whole or not at all: it is made in memory and written by [`welkin_pack::whole`].
 
-mod encode;
+pub(crate) mod encode;
 
 use std::path::Path;
 

@@ -22,6 +22,10 @@ pub struct ExportArgs {
     pub equirect: Option<u32>,
     #[arg(long, value_name = "N", value_parser = side, allow_hyphen_values = true, help = cubemap_help())]
     pub cubemap: Option<u32>,
+    /// Make image-based light of the cube map: its levels are filtered for rough surfaces (GGX), and a .json beside the .ktx2 has the irradiance
+    /// as nine spherical harmonics. A file of that name is replaced
+    #[arg(long, requires = "cubemap")]
+    pub prefiltered: bool,
     #[arg(long, value_name = "N", value_parser = frames, allow_hyphen_values = true, help = frames_help())]
     pub frames: Option<u32>,
     #[arg(long, value_name = "F", requires = "frames", value_parser = fps, allow_hyphen_values = true, help = fps_help())]
@@ -86,10 +90,10 @@ fn equirect_help() -> String {
 }
 
 fn cubemap_help() -> String {
-    let [least, most] = cubemap::SIDES;
     format!(
-        "Draw the whole sky on the six faces of a cube, N by N texels each, a power of two from {least} to {most}: into one .ktx2, or into \
-         a folder as px, nx, py, ny, pz, nz (east, west, up, down, north, south)"
+        "Draw the whole sky on the six faces of a cube, N by N texels each, {}: into one .ktx2, or into \
+         a folder as px, nx, py, ny, pz, nz (east, west, up, down, north, south)",
+        sides()
     )
 }
 
@@ -113,11 +117,18 @@ fn width(text: &str) -> Result<u32, String> {
     }
 }
 
-fn side(text: &str) -> Result<u32, String> {
+/// The sides that a face may have, in words.
+pub fn sides() -> String {
+    let [least, most] = cubemap::SIDES;
+    format!("a power of two from {least} to {most}")
+}
+
+/// The side of a face.
+pub fn side(text: &str) -> Result<u32, String> {
     let [least, most] = cubemap::SIDES;
     match text.parse::<u32>() {
         Ok(side) if (least..=most).contains(&side) && side.is_power_of_two() => Ok(side),
-        _ => Err(format!("expected a power of two from {least} to {most}")),
+        _ => Err(format!("expected {}", sides())),
     }
 }
 
@@ -187,6 +198,11 @@ impl ExportArgs {
 
     fn cube(&self, output: &Path, side: u32) -> Result<Shot, String> {
         let shown = output.display();
+        if self.prefiltered && !is_ktx2(output) {
+            return Err(format!(
+                "--prefiltered writes levels, which pictures have not, and {shown} is no .ktx2; name the output something.ktx2"
+            ));
+        }
         match (is_ktx2(output), self.format) {
             (true, None | Some(FormatName::Ktx2)) => return Ok(Shot::Ktx2(side)),
             (true, Some(_)) => {
@@ -243,7 +259,8 @@ impl ExportArgs {
     }
 }
 
-fn is_ktx2(path: &Path) -> bool {
+/// Whether a file's name ends in `.ktx2`.
+pub fn is_ktx2(path: &Path) -> bool {
     let extension = path.extension().and_then(OsStr::to_str);
     extension.is_some_and(|e| e.eq_ignore_ascii_case("ktx2"))
 }

@@ -30,6 +30,25 @@ pub fn face_to_direction(face: usize, st: [f32; 2]) -> [f32; 3] {
     flip(cube_to_direction(face as u32, st))
 }
 
+/// The direction of a texel's centre, on a face of `side` texels a side.
+///
+/// # Panics
+/// If there is no such face.
+pub fn texel_direction(face: usize, [x, y]: [u32; 2], side: u32) -> Vec3 {
+    let st = [x, y].map(|i| (i as f32 + 0.5) / side as f32);
+    Vec3::from(face_to_direction(face, st))
+}
+
+/// The solid angle of a texel, in steradians, on a face of `side` texels a side.
+///
+/// From a corner of the face's plane to its middle it is `atan(xy / sqrt(x² + y² + 1))`, the sphere's area over the rectangle between.
+pub fn texel_solid_angle([x, y]: [u32; 2], side: u32) -> f64 {
+    let edge = |i: u32| 2.0 * f64::from(i) / f64::from(side) - 1.0;
+    let corner = |x: f64, y: f64| (x * y / (x * x + y * y + 1.0).sqrt()).atan();
+    let (left, right, high, low) = (edge(x), edge(x + 1), edge(y), edge(y + 1));
+    corner(right, low) - corner(left, low) - corner(right, high) + corner(left, high)
+}
+
 /// A part of the plane of a face, in texels from its upper left corner. It may reach beyond the face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tile {
@@ -125,6 +144,22 @@ mod tests {
             let wanted = Vec3::from(face_to_direction(face, st));
             // A tangent and its arc, a quaternion: a dozen roundings, of which 1e-5 is 80.
             prop_assert!(seen(&camera, pixel).abs_diff_eq(wanted, 1e-5));
+        }
+    }
+
+    #[test]
+    fn solid_angles_are_those_of_the_sphere() {
+        for side in [1, 4, 17] {
+            let texels = || (0..side).flat_map(move |y| (0..side).map(move |x| [x, y]));
+            let sum: f64 = texels().map(|at| texel_solid_angle(at, side)).sum();
+            assert!((6.0 * sum / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-12);
+        }
+        // Of a small texel: its area on the plane, by the cube of its distance.
+        for at in [[0, 0], [511, 512], [900, 30]] {
+            let [x, y] = at.map(|i: u32| (f64::from(i) + 0.5) / 512.0 - 1.0);
+            let small = (2.0 / 1024.0_f64).powi(2) * (1.0 + x * x + y * y).powf(-1.5);
+            // The next term is the square of a texel's side, 4e-6, with a factor of a few.
+            assert!((texel_solid_angle(at, 1024) / small - 1.0).abs() < 2e-5);
         }
     }
 

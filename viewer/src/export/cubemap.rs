@@ -5,7 +5,7 @@
 //!
 //! # Practice
 //! A texel is the mean of 2x2 that are drawn. Levels down to one texel are means of 2x2 texels of a face each; they are for
-//! minification, no reflections of rough surfaces, which programs prefilter by their own models.
+//! minification. Those for reflections of rough surfaces are in [`prefilter`](super::prefilter).
 
 use half::f16;
 use welkin_pack::texture::encode;
@@ -74,10 +74,10 @@ impl Cubemap {
 
     /// The cube map as a texture of RGBA half floats with all its levels; alpha is 1.
     pub fn texture(&self) -> Texture {
-        let mut levels = vec![level(&self.faces)];
+        let mut levels = vec![halves(&self.faces, 1.0)];
         let mut faces: Vec<Image> = self.faces.iter().map(halved).collect();
         for _ in 1..Texture::full_level_count(self.side, self.side) {
-            levels.push(level(&faces));
+            levels.push(halves(&faces, 1.0));
             faces = faces.iter().map(halved).collect();
         }
         Texture {
@@ -100,11 +100,12 @@ impl Cubemap {
     }
 }
 
-/// The faces of a level as half floats, one after another.
-fn level(faces: &[Image]) -> Vec<u8> {
+/// The faces of a level as half floats, one after another, divided by `scale`.
+pub(super) fn halves(faces: &[Image], scale: f32) -> Vec<u8> {
     let of = |face: &Image| {
         let texels = face.texels.chunks_exact(3);
-        let opaque: Vec<f32> = texels.flat_map(|t| [t[0], t[1], t[2], 1.0]).collect();
+        let texels = texels.flat_map(|t| [t[0] / scale, t[1] / scale, t[2] / scale, 1.0]);
+        let opaque: Vec<f32> = texels.collect();
         encode(Format::Rgba16Float, &opaque)
     };
     faces.iter().flat_map(of).collect()
@@ -124,8 +125,8 @@ fn halved(image: &Image) -> Image {
 }
 
 #[cfg(test)]
-mod tests {
-    use glam::Vec3;
+pub(crate) mod tests {
+    use glam::{DVec3, Vec3};
 
     use super::super::cube;
     use super::super::faces::tests::{analytic, smooth};
@@ -136,6 +137,62 @@ mod tests {
     fn cubemap(sky: impl Fn(Vec3) -> [f32; 3]) -> Cubemap {
         let viewer = Camera::looking(0.0, 0.0, 1.0, [1, 1]);
         draw(&viewer, SIDE, analytic(sky)).unwrap()
+    }
+
+    /// A sky that is a function of the direction alone, at the centre of each texel.
+    pub fn at_centres(side: u32, sky: impl Fn(Vec3) -> [f32; 3]) -> Cubemap {
+        let face = |face: usize| {
+            let mut image = Image::new(side, side, 3);
+            for (x, y) in (0..side).flat_map(|y| (0..side).map(move |x| (x, y))) {
+                let radiance = sky(cube::texel_direction(face, [x, y], side));
+                image.texel_mut(x, y).copy_from_slice(&radiance);
+            }
+            image
+        };
+        Cubemap {
+            side,
+            faces: (0..6).map(face).collect(),
+        }
+    }
+
+    /// Direction, solid angle and radiance of every texel.
+    pub fn texels(map: &Cubemap) -> impl Iterator<Item = (DVec3, f64, DVec3)> {
+        let places = (0..6).flat_map(|face| (0..map.side * map.side).map(move |i| (face, i)));
+        places.map(|(face, i)| {
+            let at = [i % map.side, i / map.side];
+            let radiance = Vec3::from_slice(map.faces[face].texel(at[0], at[1]));
+            (
+                cube::texel_direction(face, at, map.side)
+                    .as_dvec3()
+                    .normalize(),
+                cube::texel_solid_angle(at, map.side),
+                radiance.as_dvec3(),
+            )
+        })
+    }
+
+    /// A sky with a gradient, grain of a texel, and a sun of one texel or none.
+    pub fn rough_sky(side: u32, sun: f32) -> Cubemap {
+        let mut map = at_centres(side, |d| {
+            let grain = (d.x * 9123.7 + d.y * 4177.3 + d.z * 7919.1).sin().abs();
+            let up = 0.5 + 0.5 * d.y;
+            [0.2 + grain * up, 0.3 + 0.5 * grain, 1.0 - 0.5 * up]
+        });
+        if sun > 0.0 {
+            let [x, y] = [side / 3, side / 4];
+            map.faces[4].texel_mut(x, y).fill(sun);
+        }
+        map
+    }
+
+    /// Directions on all sides, none of them an axis: a spiral of R. Swinbank, R. J. Purser, "Fibonacci grids", QJRMS 132, 2006.
+    pub fn directions(count: u32) -> impl Iterator<Item = DVec3> {
+        (0..count).map(move |i| {
+            let y: f64 = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(count);
+            let azimuth = f64::from(i) * 2.399_963_229_728_653;
+            let flat = (1.0 - y * y).sqrt();
+            DVec3::new(flat * azimuth.cos(), y, flat * azimuth.sin())
+        })
     }
 
     fn centre(face: usize, x: u32, y: u32) -> Vec3 {

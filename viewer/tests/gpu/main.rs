@@ -5,5 +5,6 @@ mod bench;
 mod common;
 mod environment;
 mod export;
+mod light;
 mod methods;
 mod program;

@@ -23,6 +23,12 @@ impl ExportArgs {
                     .to_string(),
             );
         }
+        if self.prefiltered {
+            return Err(
+                "--prefiltered writes two files, and --frames draws many; leave it out, or draw frames one by one with --at"
+                    .to_string(),
+            );
+        }
         match self.shard {
             Some(shard) if shard.count > frames => Err(format!(
                 "--shard {}/{} has more parts than --frames {frames} has frames; choose at most {frames} parts",

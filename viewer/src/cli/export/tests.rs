@@ -42,6 +42,11 @@ fn what_is_drawn_follows_from_options_and_name() {
             Shot::Ktx2(512),
         ),
         (
+            "f.ktx2",
+            &["--cubemap", "64", "--prefiltered"],
+            Shot::Ktx2(64),
+        ),
+        (
             "sky",
             &["--cubemap", "2048"],
             Shot::Faces(2048, Format::Exr),
@@ -136,6 +141,17 @@ fn names_and_formats_that_do_not_suit_are_told_with_a_remedy() {
             &["--cubemap", "64", "--format", "exr"],
             "name a folder",
         ),
+        (
+            "sky",
+            &["--cubemap", "64", "--prefiltered"],
+            "something.ktx2",
+        ),
+        (
+            "sky",
+            &["--cubemap", "64", "--prefiltered", "--frames", "2"],
+            "one by one",
+        ),
+        ("f.ktx2", &["--prefiltered"], "--cubemap"),
         ("f.png", &["--frames", "2"], "name a folder"),
         (
             "f.ktx2",
