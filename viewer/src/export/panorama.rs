@@ -1,7 +1,7 @@
 //! A panorama of anyone's as a cube map: the inverse of [`equirect`](super::equirect), by the same rule of directions.
 //!
 //! # Practice
-//! A texel of the cube is the mean radiance over its solid angle, so that light stays: of at least eight directions along each axis, each between the four nearest
+//! A texel of the cube is the mean radiance over its solid angle, so that light stays: of at least four directions along each axis, each between the four nearest
 //! texels of the panorama and no further apart than a quarter of one. The panorama is made smaller first, by means of 2x2 texels, each with its solid angle,
 //! while it has 16 columns or more for each texel of a face's side; it is then still finer than the faces.
 
@@ -25,7 +25,7 @@ const FINE: u32 = 16;
 const SAMPLES_A_TEXEL: f32 = 4.0;
 
 /// Directions for a texel of a face, along each axis, at least.
-const LEAST_SAMPLES: u32 = 8;
+const LEAST_SAMPLES: u32 = 4;
 
 /// The panorama on the faces of a cube of `side` texels a side; `azimuth_rad` is what it has in its middle. It is twice as wide as high.
 pub fn cubemap(panorama: &Image, side: u32, azimuth_rad: f32) -> Cubemap {

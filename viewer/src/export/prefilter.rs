@@ -17,7 +17,7 @@
 //! # Changes
 //! Karis draws some hundred samples, and M. Colbert, J. Krivanek, "GPU-Based Importance Sampling", GPU Gems 3, chapter 20, reads each from the level that is as
 //! coarse as samples are sparse. A sun, a hundred thousand times as bright as the sky and a texel wide, then shows which samples hit the coarse texel that it is
-//! in. Here no samples are drawn: all of the sky is summed ([`tree`]), coarsely where the weight changes slowly, and each part lies where its light does.
+//! in. Here no samples are drawn: all of the sky is summed (`prefilter/tree.rs`), coarsely where the weight changes slowly, and each part lies where its light does.
 //!
 //! # Practice
 //! Level 0 is the map itself, of roughness 0; level i of n has the perceptual roughness `i / (n - 1)`. The last has [`LAST_SIDE`] texels a side: fewer are
@@ -35,7 +35,7 @@ use tree::{Lobe, Tree};
 /// Texels a side of the last level, 11 degrees each; the irradiance that it holds is smooth over 60.
 pub const LAST_SIDE: u32 = 8;
 
-/// The perceptual roughness of each level of a map of `side` texels a side, the first 0 and the last 1.
+/// The perceptual roughness of each level of a map of `side` texels a side, a power of two from 16: the first is 0 and the last 1.
 pub fn roughness(side: u32) -> Vec<f32> {
     let last = (side / LAST_SIDE).ilog2();
     (0..=last).map(|level| level as f32 / last as f32).collect()
