@@ -209,8 +209,8 @@ fn scenes() -> Vec<SkyParams> {
     Method::ALL.map(scene).to_vec()
 }
 
-/// Which curve a picture was made by is told by the radiance of the same scene: of all curves it is nearest to its own. It is no more than that
-/// since sprites are blended as the target holds colours; rays and rain, which are too, are left out.
+/// Which curve a picture was made by is told by the radiance of the same scene. Rays and rain are left out, since they are blended as the target
+/// holds colours. So are sprites: their picture is only nearest to its own curve, and the one that is cut off is not asked for.
 #[test]
 fn every_part_of_a_frame_goes_through_the_curve() {
     let [linear, encoded] = [
@@ -249,13 +249,18 @@ fn every_part_of_a_frame_goes_through_the_curve() {
                 off.sum::<f32>() / (3 * picture.len()) as f32
             });
             println!("{} {tonemap:?}: {apart:?}", scene.method.name());
-            let index = tonemap as usize;
-            for (other, off) in apart.iter().enumerate() {
-                assert!(
-                    other == index || *off > apart[index],
-                    "{:?} {tonemap:?}: {apart:?}",
-                    scene.method
-                );
+            let mut others = apart.to_vec();
+            let own = others.remove(tonemap as usize);
+            let nearest = others.into_iter().fold(f32::MAX, f32::min);
+            let method = scene.method;
+            match (method, tonemap) {
+                (Method::Sprites, Tonemap::None) => {}
+                (Method::Sprites, _) => assert!(own < nearest, "{tonemap:?}: {apart:?}"),
+                // Bytes are off by a quarter of a step on average, and half floats by less.
+                _ => assert!(
+                    own < 0.5 && nearest > 1.0,
+                    "{method:?} {tonemap:?}: {apart:?}"
+                ),
             }
         }
     }
