@@ -28,7 +28,7 @@ pub const STOPS: f32 = 16.5;
 /// The sigmoid, from the sixth power down to the constant: least squares over 4096 shares of Sobotka's.
 pub const SIGMOID: [f32; 7] = [
     15.500_181,
-    -40.142_226,
+    -40.142_227,
     31.967_827,
     -6.867_842_7,
     0.429_202_38,
