@@ -1,31 +1,59 @@
 //! The last step: radiance to what a display shows.
 //!
 //! # Theory
-//! The curve is a ratio of quadratics, `y = (x + a x^2) / (1 + b x + a x^2)`, for each channel: slope 1 in
-//! the dark, so that colours of the sky keep their saturation; 0.86 (sRGB 0.93) at 1, the white of a sunlit
-//! cloud; cut off at 1, which it meets at `x = 1 / b`.
+//! Radiance times exposure goes through a tone curve, is encoded for the target and dithered. Curves are those of
+//! [`Tonemap`], a file each: [`neutral`], [`agx`], [`filmic`]. In and out are linear BT.709; the range of the display is 0..1.
 //!
 //! # Changes versus the paper
 //! The paper writes display-referred colours. Dither is ours: half a step of noise, so that an 8-bit
 //! target shows no bands.
 //!
 //! # Practice
-//! A float target gets raw radiance, and none of this.
+//! A float target gets raw radiance, and none of this. The curve is a branch over a uniform: all pixels of a frame take the same side, so a
+//! GPU pays for the one that is used. Compiled in, a change of the curve would make every pipeline anew that draws colour.
 
-use glam::Vec2;
+pub mod agx;
+pub mod filmic;
+pub mod neutral;
+
+use glam::Vec3;
 
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
-use crate::params::SkyParams;
+use crate::params::{SkyParams, Tonemap};
 
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[
-        ("TONE_SHOULDER", Value::F32(SHOULDER)),
-        ("TONE_KNEE", Value::F32(KNEE)),
+        ("TONEMAP_NEUTRAL", Value::U32(Tonemap::Neutral as u32)),
+        ("TONEMAP_AGX", Value::U32(Tonemap::Agx as u32)),
+        ("TONEMAP_FILMIC", Value::U32(Tonemap::Filmic as u32)),
+        ("FILMIC_SHOULDER", Value::F32(filmic::SHOULDER)),
+        ("FILMIC_KNEE", Value::F32(filmic::KNEE)),
+        ("NEUTRAL_REFLECTED", Value::F32(neutral::REFLECTED)),
+        ("NEUTRAL_START", Value::F32(neutral::START)),
+        ("NEUTRAL_FADING", Value::F32(neutral::FADING)),
+        ("AGX_INSET", Value::F32(agx::INSET)),
+        ("AGX_WEIGHTS", Value::Vec3(agx::WEIGHTS)),
+        ("AGX_FIRST", Value::F32(agx::FIRST)),
+        ("AGX_STOPS", Value::F32(agx::STOPS)),
+        ("AGX_X6", Value::F32(agx::SIGMOID[0])),
+        ("AGX_X5", Value::F32(agx::SIGMOID[1])),
+        ("AGX_X4", Value::F32(agx::SIGMOID[2])),
+        ("AGX_X3", Value::F32(agx::SIGMOID[3])),
+        ("AGX_X2", Value::F32(agx::SIGMOID[4])),
+        ("AGX_X1", Value::F32(agx::SIGMOID[5])),
+        ("AGX_X0", Value::F32(agx::SIGMOID[6])),
+        ("AGX_GAMMA", Value::F32(agx::GAMMA)),
+        ("AGX_BLACK", Value::F32(agx::BLACK)),
     ],
     structs: &[TonemapUniforms::WGSL],
-    wgsl: include_str!("tonemap.wgsl"),
+    wgsl: concat!(
+        include_str!("tonemap/neutral.wgsl"),
+        include_str!("tonemap/agx.wgsl"),
+        include_str!("tonemap/filmic.wgsl"),
+        include_str!("tonemap.wgsl"),
+    ),
 };
 
 uniforms! {
@@ -35,21 +63,42 @@ uniforms! {
         exposure: f32,
         /// Size of the dither, 0 for none.
         dither: f32,
+        /// Number of the curve.
+        curve: u32,
         /// Nothing.
-        _pad: Vec2,
+        _pad: f32,
     }
 }
-
-/// `a`: how hard the shoulder is.
-pub const SHOULDER: f32 = 0.5;
-/// `b`: how far 1 stays below white, `(1 + a) / (1 + b + a) = 0.86`.
-pub const KNEE: f32 = 0.244;
 
 /// The last step's share of the uniforms. `step` is that of the target's encoding.
 pub fn uniforms(params: &SkyParams, step: f32) -> TonemapUniforms {
     TonemapUniforms {
-        exposure: params.exposure,
+        exposure: params.exposure_factor(),
         dither: if params.dither { step } else { 0.0 },
+        curve: params.tonemap as u32,
         ..Default::default()
     }
+}
+
+/// Radiance, exposed, as linear colour of the display, each 0..1: what the shader computes before it encodes.
+pub fn displayed(radiance: Vec3, tonemap: Tonemap) -> Vec3 {
+    let radiance = radiance.max(Vec3::ZERO);
+    let colour = match tonemap {
+        Tonemap::Neutral => neutral::neutral(radiance),
+        Tonemap::Agx => agx::agx(radiance),
+        Tonemap::Filmic => filmic::filmic(radiance),
+        Tonemap::None => radiance,
+    };
+    colour.min(Vec3::ONE)
+}
+
+/// Linear to sRGB, IEC 61966-2-1.
+pub fn srgb_encoded(linear: Vec3) -> Vec3 {
+    linear.map(|linear| {
+        if linear <= 0.003_130_8 {
+            linear * 12.92
+        } else {
+            1.055 * linear.powf(1.0 / 2.4) - 0.055
+        }
+    })
 }

@@ -1,9 +1,22 @@
 // The last step: tone curve, dither, encoding. Theory and CPU part: tonemap.rs.
 
-fn tone_curve(radiance: vec3f) -> vec3f {
-    let x = max(radiance, vec3f(0.0));
-    let shoulder = TONE_SHOULDER * x * x;
-    return min((x + shoulder) / (1.0 + TONE_KNEE * x + shoulder), vec3f(1.0));
+// Linear colour of the display, 0..1. All pixels of a frame take the same side of the branch.
+fn tone_curve(exposed: vec3f) -> vec3f {
+    let radiance = max(exposed, vec3f(0.0));
+    var colour = radiance;
+    switch uniforms.tonemap.curve {
+        case TONEMAP_NEUTRAL: {
+            colour = tonemap_neutral(radiance);
+        }
+        case TONEMAP_AGX: {
+            colour = tonemap_agx(radiance);
+        }
+        case TONEMAP_FILMIC: {
+            colour = tonemap_filmic(radiance);
+        }
+        default: {}
+    }
+    return min(colour, vec3f(1.0));
 }
 
 // IEC 61966-2-1.

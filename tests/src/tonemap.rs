@@ -1,49 +1,23 @@
-//! Twin of tonemap.wgsl, without the dither.
+//! Twin of tonemap.wgsl, without the dither. The curves are the runtime's own on the CPU, which environment maps go through too.
 
 use glam::Vec3;
-use welkin_runtime::internals::tonemap::{KNEE, SHOULDER};
-
-/// The tone curve.
-pub fn curve(radiance: Vec3) -> Vec3 {
-    let x = radiance.max(Vec3::ZERO);
-    let shoulder = x * x * SHOULDER;
-    ((x + shoulder) / (1.0 + x * KNEE + shoulder)).min(Vec3::ONE)
-}
-
-/// Linear to sRGB, IEC 61966-2-1.
-pub fn srgb_encode(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 {
-        linear * 12.92
-    } else {
-        1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055
-    }
-}
+use welkin_runtime::SkyParams;
+use welkin_runtime::internals::tonemap::{displayed, srgb_encoded};
 
 /// What an 8-bit target holds, 0..255, not rounded.
-pub fn to_bytes(radiance: Vec3, exposure: f32) -> Vec3 {
-    let display = curve(radiance * exposure);
-    Vec3::from(display.to_array().map(srgb_encode)) * 255.0
+pub fn to_bytes(radiance: Vec3, params: &SkyParams) -> Vec3 {
+    srgb_encoded(displayed(
+        radiance * params.exposure_factor(),
+        params.tonemap,
+    )) * 255.0
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_curve_rises_from_the_origin_to_white_and_keeps_its_promises() {
-        let at = |x: f32| curve(Vec3::splat(x)).x;
-        assert_eq!(at(0.0), 0.0);
-        assert!((at(1e-4) / 1e-4 - 1.0).abs() < 1e-3, "slope 1 in the dark");
-        assert!(
-            (0.92..0.95).contains(&srgb_encode(at(1.0))),
-            "sunlit white is near white, not at it"
-        );
-        assert_eq!(at(1e9), 1.0);
-        for i in 1..4000 {
-            assert!(
-                at(i as f32 * 1e-3) >= at((i - 1) as f32 * 1e-3),
-                "rises at {i}"
-            );
-        }
-    }
+/// How far the bytes move if each channel of the radiance is off by up to `may`, those of one channel after those of another: curves mix channels.
+pub fn spread(radiance: Vec3, may: Vec3, params: &SkyParams) -> Vec3 {
+    let here = to_bytes(radiance, params);
+    let apart = |off: Vec3| (to_bytes(radiance + off, params) - here).abs();
+    [Vec3::X, Vec3::Y, Vec3::Z]
+        .map(|axis| apart(axis * may).max(apart(-axis * may)))
+        .iter()
+        .sum()
 }

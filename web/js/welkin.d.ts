@@ -59,6 +59,8 @@ export type SettingName =
   | 'skybox'
   | 'rays'
   | 'rain'
+  | 'exposure-ev'
+  | 'tonemap'
   | 'flashes'
   | 'at'
   | 'rate'
@@ -155,6 +157,10 @@ export interface Settings {
   rays?: number | string;
   /** Strength of the rain, 0 (off) to 1. */
   rain?: number | string;
+  /** Exposure of the picture in stops: each is twice as bright. From -16 to 16. */
+  'exposure-ev'?: number | string;
+  /** How radiance becomes colour on a display. */
+  tonemap?: 'neutral' | 'agx' | 'filmic' | 'none';
   /** Flashes of lightning a minute. From 0 to 30. */
   flashes?: number | string;
   /** Moment of the animation, in seconds. */

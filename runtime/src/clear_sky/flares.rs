@@ -12,7 +12,8 @@
 //!
 //! # Practice
 //! Six squares, drawn after the sky and over the scene, in the target's own encoding: what is behind a hill is for the
-//! application to know ([`crate::SkyParams::flare`] 0 switches it off). Five looks at the clouds a vertex.
+//! application to know ([`crate::SkyParams::flare`] 0 switches it off). Five looks at the clouds a vertex. Colours are those of the display, so
+//! no tone curve is taken of them; a picture that is exposed less has less of the flare.
 
 use glam::{Vec2, Vec3, Vec4};
 use welkin_pack::mapping::FlareCell;

@@ -27,7 +27,9 @@ fn flare_cover(towards: vec3f) -> f32 {
 fn vs_flare(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> FlareVaryings {
     let square = uniforms.flares.squares[instance];
     let corner = vec2f(f32(vertex & 1u), f32(vertex >> 1u));
-    let opacity = square.opacity * (uniforms.flares.strength * flare_clearness());
+    // Its colours are the display's. A darker picture has less of it, a brighter one no more than its own opacity.
+    let exposure = select(min(uniforms.tonemap.exposure, 1.0), 1.0, OUTPUT == OUTPUT_RADIANCE);
+    let opacity = square.opacity * (uniforms.flares.strength * flare_clearness() * exposure);
     // The first row of the atlas is up.
     let position = square.position + square.half_size * (corner * vec2f(2.0, -2.0) - vec2f(1.0, -1.0));
     let uv = square.cell + square.cell_size * corner;

@@ -15,6 +15,7 @@ mod sky;
 mod sprites;
 mod table;
 mod text;
+mod tonemap;
 mod weather;
 
 pub use fbm::{FbmParams, PALETTES};
@@ -26,7 +27,8 @@ pub use range::{ParamError, whole_within, within};
 pub use setting::{
     Command, CommandOption, DefaultSaid, Group, Input, NONE, Number, Setting, Slot, Words,
 };
-pub use sky::{MAX_EXPOSURE, SkyParams};
+pub use sky::{EXPOSURE_EV, MAX_EXPOSURE, SkyParams};
 pub use sprites::{LEAST_RING_M, MOST_DISTANCE_M, SpriteParams};
 pub use table::{OTHERS, SETTINGS};
+pub use tonemap::Tonemap;
 pub use weather::{FLASH_PLACE_M, FLASH_START_S, FLASH_STRENGTH, Lightning, WeatherParams};

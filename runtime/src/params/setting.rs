@@ -99,7 +99,7 @@ pub enum Group {
     Weather,
     /// Time.
     Time,
-    /// Where one looks from.
+    /// Where one looks from, and how light becomes a picture.
     Camera,
 }
 

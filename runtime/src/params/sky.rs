@@ -6,6 +6,7 @@ use super::method::{Method, SkyModel};
 use super::octaves::OctaveParams;
 use super::perez::PerezParams;
 use super::sprites::SpriteParams;
+use super::tonemap::Tonemap;
 use super::weather::WeatherParams;
 
 /// What the sky shall look like. The first six are the paper's, 0..1 each.
@@ -33,8 +34,13 @@ pub struct SkyParams {
     pub time: f32,
     /// Amount of the thin upper layer of [`Method::Packed`], 0 (off) to 1.
     pub upper_layer: f32,
-    /// Factor on the radiance before the tone curve, 0..=64. A float target gets radiance without it.
+    /// Factor on the radiance before the tone curve, 0..=64: what an application's camera has adapted to. A float target gets radiance
+    /// without it.
     pub exposure: f32,
+    /// A person's correction of it in stops, -16..=16: the radiance is multiplied by [`SkyParams::exposure_factor`].
+    pub exposure_ev: f32,
+    /// The tone curve.
+    pub tonemap: Tonemap,
     /// Whether targets of few bits are dithered by half a step.
     pub dither: bool,
     /// How the clear sky is computed.
@@ -73,6 +79,9 @@ pub struct SkyParams {
 
 /// The largest [`SkyParams::exposure`]: six stops over the default.
 pub const MAX_EXPOSURE: f32 = 64.0;
+/// Range of [`SkyParams::exposure_ev`]: half floats, which packs and targets hold radiance in, end just below `2^16`, and what they hold can be
+/// brought to 1.
+pub const EXPOSURE_EV: [f32; 2] = [-16.0, 16.0];
 
 impl Default for SkyParams {
     /// A fair day at noon.
@@ -86,6 +95,8 @@ impl Default for SkyParams {
             time: 0.5,
             upper_layer: 0.0,
             exposure: 1.0,
+            exposure_ev: 0.0,
+            tonemap: Tonemap::default(),
             dither: true,
             sky: SkyModel::Gradient,
             perez: PerezParams::default(),
@@ -131,6 +142,11 @@ impl SkyParams {
             time: 0.72,
             ..Default::default()
         }
+    }
+
+    /// The factor on the radiance before the tone curve: `exposure 2^exposure_ev`.
+    pub fn exposure_factor(&self) -> f32 {
+        self.exposure * self.exposure_ev.exp2()
     }
 
     /// The parameters of the dome: those of the method behind the sprites, or these themselves.

@@ -7,7 +7,7 @@ use super::octaves::{FORMATION_INTERVAL_S, MAX_OCTAVES};
 use super::perez::{CUSTOM, TURBIDITY};
 use super::row::{UNIT, count, number, switch, text, three};
 use super::setting::{DefaultSaid, Group, Input, Number, Setting};
-use super::sky::{MAX_EXPOSURE, SkyParams};
+use super::sky::{EXPOSURE_EV, MAX_EXPOSURE, SkyParams};
 use super::sprites::MOST_DISTANCE_M;
 use super::text;
 use super::weather::{FLASH_PLACE_M, FLASH_STRENGTH};
@@ -162,6 +162,12 @@ pub const SETTINGS: &[Setting] = settings! {
             = plain!(weather.rays, UNIT).value("R").range_said().blends();
         "rain" "Rain" "Strength of the rain, 0 (off) to 1"
             = plain!(weather.rain, UNIT).value("R").range_said().blends();
+    }
+    Camera {
+        "exposure-ev" "Exposure" "Exposure of the picture in stops: each is twice as bright"
+            = plain!(exposure_ev, EXPOSURE_EV).unit("stops", " stops").value("EV");
+        "tonemap" "Tone curve" "How radiance becomes colour on a display"
+            = text(choice(&text::TONEMAPS), text::tonemap, text::set_tonemap);
     }
 };
 

@@ -8,9 +8,11 @@ use super::range::{between_commas, comma_text, whole_within, within};
 use super::setting::NONE;
 use super::sky::SkyParams;
 use super::sprites::{LEAST_RING_M, MOST_DISTANCE_M};
+use super::tonemap::Tonemap;
 
 const METHOD_COUNT: usize = Method::ALL.len();
 const MODEL_COUNT: usize = SkyModel::ALL.len();
+const TONEMAP_COUNT: usize = Tonemap::ALL.len();
 
 /// Names of the methods, and what they are.
 pub const METHODS: [[&str; METHOD_COUNT]; 2] = {
@@ -31,6 +33,18 @@ pub const MODELS: [[&str; MODEL_COUNT]; 2] = {
     while i < MODEL_COUNT {
         texts[0][i] = SkyModel::ALL[i].name();
         texts[1][i] = SkyModel::ALL[i].title();
+        i += 1;
+    }
+    texts
+};
+
+/// Names of the tone curves, and what they are.
+pub const TONEMAPS: [[&str; TONEMAP_COUNT]; 2] = {
+    let mut texts = [[""; TONEMAP_COUNT]; 2];
+    let mut i = 0;
+    while i < TONEMAP_COUNT {
+        texts[0][i] = Tonemap::ALL[i].name();
+        texts[1][i] = Tonemap::ALL[i].title();
         i += 1;
     }
     texts
@@ -71,6 +85,15 @@ pub fn model(params: &SkyParams) -> String {
 
 pub fn set_model(params: &mut SkyParams, text: &str) -> Result<(), String> {
     params.sky = SkyModel::ALL[index(&MODELS[0], text)?];
+    Ok(())
+}
+
+pub fn tonemap(params: &SkyParams) -> String {
+    params.tonemap.name().to_string()
+}
+
+pub fn set_tonemap(params: &mut SkyParams, text: &str) -> Result<(), String> {
+    params.tonemap = Tonemap::ALL[index(&TONEMAPS[0], text)?];
     Ok(())
 }
 

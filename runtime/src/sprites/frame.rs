@@ -56,6 +56,9 @@ pub fn station(frame: &Frame<'_>, viewer_m: DVec3, sight_m: f32, heights_m: [f64
             own.flash.z,
             params.cover,
             params.sprites.formation,
+            // Pictures hold colours as the target does: shares of the exposure, and another curve is another look.
+            params.exposure_factor().max(f32::MIN_POSITIVE).ln(),
+            f32::from(params.tonemap as u8),
         ],
     }
 }

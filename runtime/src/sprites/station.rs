@@ -121,7 +121,7 @@ pub struct Station {
     /// Unit direction towards sun or moon.
     pub sun: Vec3,
     /// Numbers that the look of all clouds depends on.
-    pub look: [f32; 8],
+    pub look: [f32; 10],
 }
 
 impl Station {

@@ -57,9 +57,9 @@ fn assert_same_pictures(pack: &Pack, frames: &[(&str, SkyParams)]) {
 fn allowed(twin: &Twin, params: &SkyParams, are_alike: bool) -> Vec<Vec3> {
     let mut frame = twin.frame(params, &view(), SECONDS);
     if are_alike {
-        return drivers::alike(&mut frame, params.exposure);
+        return drivers::alike(&mut frame, params);
     }
-    let bounds = drivers::unlike(&mut frame, params.exposure);
+    let bounds = drivers::unlike(&mut frame, params);
     if params.method != Method::Sprites {
         return bounds;
     }

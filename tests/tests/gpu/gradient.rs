@@ -43,7 +43,7 @@ fn expected(channel: usize) -> Vec<f32> {
     let radiance = Twin::new(pack::default_pack()).render(&clear(false), &camera(), 0.0);
     let values: Vec<f32> = radiance
         .iter()
-        .map(|&r| tonemap::to_bytes(r, 1.0)[channel])
+        .map(|&r| tonemap::to_bytes(r, &clear(false))[channel])
         .collect();
     values.chunks_exact(SIZE[0] as usize).map(mean).collect()
 }

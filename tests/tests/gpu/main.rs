@@ -22,5 +22,6 @@ mod shadows;
 mod skybox;
 mod sprites;
 mod stars;
+mod tonemap;
 mod twins;
 mod weather;

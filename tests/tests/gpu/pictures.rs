@@ -93,7 +93,7 @@ fn allowed(twin: &Twin, params: &SkyParams, view: &Camera) -> Vec<Vec3> {
     if gpu::gpu().is_llvmpipe {
         return vec![Vec3::splat(2.0 / 255.0); (width * height) as usize];
     }
-    let dome = drivers::unlike(&mut twin.frame(params, view, SECONDS), params.exposure);
+    let dome = drivers::unlike(&mut twin.frame(params, view, SECONDS), params);
     let more = if params.method == Method::Sprites {
         drivers::SPRITES
     } else {

@@ -3,4 +3,5 @@
 mod floors;
 mod golden;
 mod perez;
+mod tonemap;
 mod twilight;

@@ -79,6 +79,16 @@ impl Shot {
             Shot::Faces(..) => "",
         }
     }
+
+    /// Whether it becomes a picture for a display, and not radiance.
+    pub fn is_picture(self) -> bool {
+        match self {
+            Shot::Frame(format) | Shot::Equirect(_, format) | Shot::Faces(_, format) => {
+                format == Format::Png
+            }
+            Shot::Ktx2(_) => false,
+        }
+    }
 }
 
 fn equirect_help() -> String {

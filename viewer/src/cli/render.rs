@@ -81,8 +81,23 @@ impl RenderArgs {
         if self.export.is_used() {
             self.shot()?;
         }
+        self.refuse_for_radiance()?;
         let shadow = self.shadow.as_ref().map(|_| ("shadow", Method::Lit));
         self.settings.refuse_other_methods(shadow.as_slice())
+    }
+
+    /// Files of radiance hold no picture: what makes one of it is a mistake there, and told.
+    fn refuse_for_radiance(&self) -> Result<(), String> {
+        let of_picture = ["exposure-ev", "tonemap"];
+        let given = of_picture.into_iter().find(|o| self.settings.is_given(o));
+        match (given, self.shot()) {
+            (Some(option), Ok(shot)) if !shot.is_picture() => Err(format!(
+                "--{option} is for pictures, and {} would hold radiance as it is; leave it out, or write .png",
+                self.output.display()
+            )),
+            // A name that suits nothing is told elsewhere.
+            _ => Ok(()),
+        }
     }
 }
 

@@ -1,20 +1,24 @@
 //! Radiance as a picture that a display shows: the runtime's last step on the CPU, for maps that are put together from several frames.
 //!
-//! The same tone curve, encoding and dither as [`welkin_runtime::internals::tonemap`], after the means were taken in linear light.
+//! The same exposure, tone curve, encoding and dither as [`welkin_runtime::internals::tonemap`], after the means were taken in linear light.
 
-use welkin_runtime::internals::tonemap::{KNEE, SHOULDER};
+use glam::Vec3;
+use half::f16;
+use welkin_runtime::SkyParams;
+use welkin_runtime::internals::tonemap;
 
 use crate::frame::{Frame, Pixels};
 
-/// A frame of radiance, tonemapped and encoded as sRGB. Other frames stay what they are.
-pub fn displayed(frame: Frame) -> Frame {
+/// A frame of radiance, tonemapped and encoded as sRGB as these parameters say. Other frames stay what they are.
+pub fn displayed(frame: Frame, params: &SkyParams) -> Frame {
     let Pixels::Linear(pixels) = &frame.pixels else {
         return frame;
     };
     let places = pixels.iter().enumerate();
     let bytes = places.map(|(index, pixel)| {
         let noise = dither(index as u32 % frame.width, index as u32 / frame.width);
-        let [r, g, b, _] = pixel.map(|c| (encoded(toned(c.to_f32())) * 255.0 + 0.5 + noise) as u8);
+        let steps = encoded(*pixel, params) * 255.0 + 0.5 + noise;
+        let [r, g, b] = steps.to_array().map(|c| c as u8);
         [r, g, b, 255]
     });
     Frame {
@@ -23,19 +27,10 @@ pub fn displayed(frame: Frame) -> Frame {
     }
 }
 
-fn toned(radiance: f32) -> f32 {
-    let x = radiance.max(0.0);
-    let shoulder = SHOULDER * x * x;
-    ((x + shoulder) / (1.0 + KNEE * x + shoulder)).min(1.0)
-}
-
-/// IEC 61966-2-1.
-fn encoded(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 {
-        12.92 * linear
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    }
+/// Red, green and blue of the picture, 0..1.
+fn encoded([r, g, b, _]: [f16; 4], params: &SkyParams) -> Vec3 {
+    let radiance = Vec3::from([r, g, b].map(f16::to_f32)) * params.clamped().exposure_factor();
+    tonemap::srgb_encoded(tonemap::displayed(radiance, params.tonemap))
 }
 
 /// Interleaved gradient noise, -0.5..0.5: J. Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014.
@@ -46,18 +41,18 @@ fn dither(x: u32, y: u32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use half::f16;
+    use welkin_runtime::params::Tonemap;
 
     use super::*;
 
-    fn shown(radiance: f32) -> Vec<u8> {
+    fn shown(radiance: f32, params: &SkyParams) -> Vec<u8> {
         let pixels = Pixels::Linear(vec![[f16::from_f32(radiance); 4]; 64 * 64]);
-        let frame = displayed(Frame {
+        let frame = Frame {
             width: 64,
             height: 64,
             pixels,
-        });
-        match frame.pixels {
+        };
+        match displayed(frame, params).pixels {
             Pixels::Srgb8(pixels) => {
                 assert!(
                     pixels
@@ -70,22 +65,56 @@ mod tests {
         }
     }
 
+    fn every_curve() -> [SkyParams; 4] {
+        Tonemap::ALL.map(|tonemap| SkyParams {
+            tonemap,
+            ..SkyParams::default()
+        })
+    }
+
     #[test]
-    fn black_is_black_bright_is_white_and_the_sunlit_cloud_a_little_below() {
-        assert!(shown(0.0).iter().all(|&b| b <= 1) && shown(-1.0).iter().all(|&b| b <= 1));
-        assert!(shown(60_000.0).iter().all(|&b| b >= 254));
-        // (1 + a) / (1 + b + a) is 0.86, which sRGB encodes as 0.935.
-        assert!(shown(1.0).iter().all(|&b| b.abs_diff(238) <= 1));
+    fn black_is_black_and_bright_is_white_with_every_curve() {
+        for params in every_curve() {
+            let dark = [0.0, -1.0]
+                .map(|radiance| shown(radiance, &params))
+                .concat();
+            assert!(dark.iter().all(|&b| b <= 1));
+            assert!(shown(60_000.0, &params).iter().all(|&b| b >= 254));
+        }
+    }
+
+    #[test]
+    fn the_sunlit_cloud_is_a_little_below_white() {
+        let filmic = SkyParams {
+            tonemap: Tonemap::Filmic,
+            ..SkyParams::default()
+        };
+        // (1 + A) / (1 + B + A) is 0.86, which sRGB encodes as 0.935.
+        assert!(shown(1.0, &filmic).iter().all(|&b| b.abs_diff(238) <= 1));
+    }
+
+    #[test]
+    fn a_stop_is_twice_the_radiance() {
+        for params in every_curve() {
+            let brighter = SkyParams {
+                exposure_ev: 1.0,
+                ..params
+            };
+            assert_eq!(shown(0.125, &brighter), shown(0.25, &params));
+            assert_ne!(shown(0.125, &params), shown(0.25, &params));
+        }
     }
 
     #[test]
     fn dither_keeps_the_mean() {
-        for radiance in [0.03, 0.21, 0.5] {
-            let bytes = shown(radiance);
-            let mean = bytes.iter().map(|&b| f32::from(b)).sum::<f32>() / bytes.len() as f32;
-            let wanted = encoded(toned(f16::from_f32(radiance).to_f32())) * 255.0;
-            // Noise of 64x64 different values over one step: an even distribution is off by less than a 64th.
-            assert!((mean - wanted).abs() < 1.0 / 64.0, "{mean} {wanted}");
+        for params in every_curve() {
+            for radiance in [0.03, 0.21, 0.5] {
+                let bytes = shown(radiance, &params);
+                let mean = bytes.iter().map(|&b| f32::from(b)).sum::<f32>() / bytes.len() as f32;
+                let wanted = encoded([f16::from_f32(radiance); 4], &params).x * 255.0;
+                // Noise of 64x64 different values over one step: an even distribution is off by less than a 64th.
+                assert!((mean - wanted).abs() < 1.0 / 64.0, "{mean} {wanted}");
+            }
         }
     }
 }

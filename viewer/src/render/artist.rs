@@ -63,12 +63,12 @@ impl<'a> Artist<'a> {
             }
             Artist::Equirect(sky, width, azimuth_rad, format) => {
                 let map = sky.equirect(view, *width, *azimuth_rad)?;
-                encode(file, *format, &shown_as(*format, map))?
+                encode(file, *format, &shown_as(*format, map, view))?
             }
             Artist::Ktx2(sky, side) => sky.cubemap(view, *side)?.ktx2(file)?,
             Artist::Faces(sky, side, format) => {
                 let map = sky.cubemap(view, *side)?;
-                return faces(&map, *format, file).map(Encoded::Folder);
+                return faces(&map, *format, file, view).map(Encoded::Folder);
             }
         };
         Ok(Encoded::File(encoded))
@@ -76,10 +76,15 @@ impl<'a> Artist<'a> {
 }
 
 /// Names and bytes of the pictures of the faces.
-fn faces(map: &Cubemap, format: Format, folder: &str) -> Result<Vec<(String, Vec<u8>)>> {
+fn faces(
+    map: &Cubemap,
+    format: Format,
+    folder: &str,
+    view: &View,
+) -> Result<Vec<(String, Vec<u8>)>> {
     let face = |(index, face): (usize, &str)| {
         let name = face_name(face, format);
-        let picture = shown_as(format, map.frame(index));
+        let picture = shown_as(format, map.frame(index), view);
         let bytes = encode(&format!("{folder}/{name}"), format, &picture)?;
         Ok((name, bytes))
     };
@@ -107,9 +112,9 @@ pub fn draw(mut artist: Artist<'_>, view: &View, output: &Path) -> Result<()> {
 }
 
 /// Radiance as the format wants it.
-fn shown_as(format: Format, map: Frame) -> Frame {
+fn shown_as(format: Format, map: Frame, view: &View) -> Frame {
     match format {
-        Format::Png => displayed(map),
+        Format::Png => displayed(map, &view.params),
         Format::Exr | Format::Hdr => map,
     }
 }

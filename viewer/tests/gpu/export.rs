@@ -9,7 +9,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use exr::prelude::read_first_rgba_layer_from_file;
+use glam::Vec3;
 use half::f16;
+use welkin_runtime::internals::tonemap;
+use welkin_runtime::params::Tonemap;
 
 use crate::common::{failed, pack, run, view};
 
@@ -62,9 +65,11 @@ fn a_panorama_is_the_same_sky_in_every_format() {
     let folder = tempfile::tempdir().unwrap();
     let place = |name: &str| folder.path().join(name);
     let words = ["--equirect", "128", "--time", "0.4", "--cover", "0"];
-    for name in ["sky.exr", "sky.hdr", "sky.png"] {
+    for name in ["sky.exr", "sky.hdr"] {
         done(render(&place(name), &words));
     }
+    let filmic = [&words[..], &["--tonemap", "filmic"]].concat();
+    done(render(&place("sky.png"), &filmic));
     let (width, height, radiance) = exr(&place("sky.exr"));
     assert_eq!((width, height), (128, 64));
     // The sun is brighter than white.
@@ -108,6 +113,30 @@ fn a_panorama_is_the_same_sky_in_every_format() {
     }
     // The same samples, but for the rounding of angles: steps of half floats.
     assert!(apart < 0.01, "{apart}");
+}
+
+#[test]
+fn a_picture_of_a_panorama_has_the_curve_and_the_exposure_that_were_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name);
+    let words = ["--equirect", "64", "--time", "0.4", "--cover", "0.3"];
+    done(render(&place("sky.exr"), &words));
+    let (.., radiance) = exr(&place("sky.exr"));
+    for tonemap in Tonemap::ALL {
+        let own = ["--tonemap", tonemap.name(), "--exposure-ev", "-1"];
+        done(render(&place("sky.png"), &[&words[..], &own].concat()));
+        let png = image::open(place("sky.png")).unwrap().into_rgb8();
+        for (radiance, png) in radiance.iter().zip(png.pixels()) {
+            let exposed = Vec3::from([0, 1, 2].map(|c| 0.5 * radiance[c].to_f32()));
+            let steps = tonemap::srgb_encoded(tonemap::displayed(exposed, tonemap)) * 255.0;
+            // Half a step of dither and half a byte.
+            let off = steps - Vec3::from(png.0.map(f32::from));
+            assert!(
+                off.abs().max_element() < 1.01,
+                "{tonemap:?} {steps} {png:?}"
+            );
+        }
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use welkin_runtime::{Method, SkyParams};
 use welkin_tests::renderer::{Frame, Twin};
 use welkin_tests::{compare, gpu, pack, tonemap};
 
-use skies::{Case, SIZE, camera, common_skies, skies};
+use skies::{Case, SIZE, camera, common_skies, skies, toned_skies};
 
 /// What radiance may differ by, for each pixel and its expected value, where each read of clouds is off by up to `off`: what
 /// that is worth; 2 % for half floats (2^-11), bilinear weights of 8 bits, the exponentials of a GPU (2^-11) and
@@ -84,7 +84,7 @@ fn pictures_agree_in_8_bit_targets() {
         params,
         camera,
         seconds,
-    } in common_skies()
+    } in common_skies().into_iter().chain(toned_skies())
     {
         let params = SkyParams {
             dither: false,
@@ -94,18 +94,13 @@ fn pictures_agree_in_8_bit_targets() {
         let radiance = frame.render();
         let off = off_with_own_map(&frame);
         let may = allowed(&mut frame, &off, &radiance);
-        let bytes = |radiance: Vec3| tonemap::to_bytes(radiance, params.exposure) / 255.0;
+        let bytes = |radiance: Vec3| tonemap::to_bytes(radiance, &params) / 255.0;
         let expected: Vec<Vec3> = radiance.iter().map(|&r| bytes(r)).collect();
         // What the radiance may differ by, through tone curve and encoding, and one step: half for rounding,
         // the rest for the hardware's encoding (Vulkan allows it 0.6 in all).
-        let bound = |r: Vec3, may: Vec3| {
-            let (less, here, more) = (bytes(r - may), bytes(r), bytes(r + may));
-            (here - less).max(more - here) + 1.0 / 255.0
-        };
-        let bounds: Vec<Vec3> = radiance
-            .iter()
-            .zip(&may)
-            .map(|(&r, &may)| bound(r, may))
+        let both = radiance.iter().zip(&may);
+        let bounds: Vec<Vec3> = both
+            .map(|(&r, &may)| (tonemap::spread(r, may, &params) + 1.0) / 255.0)
             .collect();
         for (format, sky) in &mut targets {
             let actual = gpu::rgb(&gpu::render(sky, *format, &params, &camera, seconds));

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use welkin_pack::LayerKind;
 use welkin_runtime::params::{
-    FbmParams, LitLayer, LitParams, OctaveParams, PerezParams, PerezShape, SkyModel,
+    FbmParams, LitLayer, LitParams, OctaveParams, PerezParams, PerezShape, SkyModel, Tonemap,
 };
 use welkin_runtime::{Camera, Method, SkyParams};
 
@@ -273,6 +273,31 @@ fn perez_skies() -> Vec<Case> {
 pub fn common_skies() -> Vec<Case> {
     let shared = Method::DOMES.into_iter().flat_map(shared_skies);
     shared.chain(perez_skies()).collect()
+}
+
+/// A day, a sunset and a night with each of the other curves, brighter and darker.
+pub fn toned_skies() -> Vec<Case> {
+    let others = Tonemap::ALL
+        .into_iter()
+        .filter(|tonemap| *tonemap != Tonemap::default());
+    let three = |tonemap: Tonemap| {
+        let of = |name: &str, time: f32, exposure_ev: f32, azimuth: f32| {
+            let params = SkyParams {
+                time,
+                tonemap,
+                exposure_ev,
+                ..SkyParams::default()
+            };
+            let name = format!("{}_{name}", tonemap.name());
+            case(&name, params, azimuth, 35.0, 12.0)
+        };
+        [
+            of("noon", 0.5, 0.5, 180.0),
+            of("sunset", 0.745, -1.0, 270.0),
+            of("night", 0.0, 2.0, 100.0),
+        ]
+    };
+    others.flat_map(three).collect()
 }
 
 /// Those, and what each method has of its own.

@@ -1,5 +1,5 @@
 use welkin_controls::{Group, Input, KEYS, Key, Settings};
-use welkin_runtime::params::{FbmParams, SkyModel};
+use welkin_runtime::params::{FbmParams, SkyModel, Tonemap};
 
 use super::*;
 use crate::cli::{Cli, Command};
@@ -490,6 +490,39 @@ fn settings_become_options_that_give_the_same_picture() {
                     key.name
                 );
             }
+        }
+    }
+}
+
+#[test]
+fn curve_and_exposure_are_taken_for_pictures_and_refused_for_radiance() {
+    let toned = params(&["--tonemap", "neutral", "--exposure-ev", "-1.5"]);
+    assert_eq!((toned.tonemap, toned.exposure_ev), (Tonemap::Neutral, -1.5));
+    assert!(error_of(&["--tonemap", "aces"]).contains("[possible values: neutral, agx,"));
+    assert!(error_of(&["--exposure-ev", "17"]).contains("expected a number from -16 to 16 stops"));
+    let read = |args: &[&str]| Cli::read(["welkin-view", "render", "pack"].iter().chain(args));
+    for option in [["--tonemap", "agx"], ["--exposure-ev", "1"]] {
+        for output in [
+            &["-o", "sky.exr"][..],
+            &["-o", "sky.hdr", "--equirect", "64"],
+            &["-o", "sky.ktx2", "--cubemap", "64"],
+            &["-o", "faces", "--cubemap", "64"],
+        ] {
+            let Err(error) = read(&[output, &option].concat()) else {
+                panic!("{output:?} {option:?} was accepted");
+            };
+            let told = format!(
+                "{} is for pictures, and {} would hold",
+                option[0], output[1]
+            );
+            assert!(error.to_string().contains(&told), "{error}");
+        }
+        for output in [
+            &["-o", "sky.png", "--equirect", "64"][..],
+            &["-o", "faces", "--cubemap", "64", "--format", "png"],
+            &["-o", "frames", "--frames", "2"],
+        ] {
+            assert!(read(&[output, &option].concat()).is_ok(), "{output:?}");
         }
     }
 }

@@ -1,0 +1,17 @@
+// AgX. Theory: agx.rs.
+
+fn tonemap_agx(radiance: vec3f) -> vec3f {
+    let inset = radiance + AGX_INSET * (dot(radiance, AGX_WEIGHTS) - radiance);
+    let stops = log2(max(inset, vec3f(AGX_BLACK)));
+    let x = clamp((stops - AGX_FIRST) / AGX_STOPS, vec3f(0.0), vec3f(1.0));
+    var sum = vec3f(AGX_X6);
+    sum = sum * x + AGX_X5;
+    sum = sum * x + AGX_X4;
+    sum = sum * x + AGX_X3;
+    sum = sum * x + AGX_X2;
+    sum = sum * x + AGX_X1;
+    let shown = max(sum * x + AGX_X0, vec3f(0.0));
+    let outset = (shown - AGX_INSET * dot(shown, AGX_WEIGHTS)) / (1.0 - AGX_INSET);
+    return pow(max(outset, vec3f(AGX_BLACK)), vec3f(AGX_GAMMA));
+}
+
