@@ -145,9 +145,10 @@ def rows():
 HEADER = f"""\
 # Direct normal (dni) and diffuse horizontal (dhi) irradiance under clear skies, by the models of pvlib {pvlib.__version__} (BSD-3-Clause).
 # Made by scripts/clear-sky-irradiance.py, where the models are cited.
-# Atmosphere: sea level, {PRESSURE_PA:.0f} Pa; ozone {OZONE_ATM_CM * 1000:.0f} DU; water {WATER_CM} cm; aerosol of optical depth aod500 at 500 nm, Angstrom
-# exponent {ANGSTROM}, in spectrl2 of single-scattering albedo {SINGLE_SCATTERING_400} at 400 nm and asymmetry {ASYMMETRY}, in bird of forward share {FORWARD_SHARE}; Lambertian ground (albedo empty: the model
-# has none). Sun: elevation_deg is the apparent one, mean distance, {EXTRA_W_M2:.0f} W/m^2 (spectrl2: its own spectrum).
+# Atmosphere: sea level, {PRESSURE_PA:.0f} Pa; ozone {OZONE_ATM_CM * 1000:.0f} DU; water {WATER_CM} cm; aerosol of optical depth aod500 at 500 nm,
+# Angstrom exponent {ANGSTROM}, in spectrl2 of single-scattering albedo {SINGLE_SCATTERING_400} at 400 nm and asymmetry {ASYMMETRY}, in bird of
+# forward share {FORWARD_SHARE}; Lambertian ground (albedo empty: the model has none).
+# Sun: elevation_deg is the apparent one, mean distance, {EXTRA_W_M2:.0f} W/m^2 (spectrl2: its own spectrum). dni is light that nothing scattered.
 # ratio: dni * sin(elevation) / dhi, 300 to 4000 nm. dni_lx, dhi_lx: the same light weighed by V(lambda), {LUMENS_PER_WATT:.0f} lm/W; ratio_visible: their
 # ratio on the horizontal; ratio_{BANDS_NM[0]}, ...: that of the light within {BAND_HALF_WIDTH_NM} nm of a wavelength.
 """
