@@ -46,6 +46,22 @@ pub fn run(mut command: Command) -> Output {
     command.output().expect("the program starts")
 }
 
+/// `welkin-view render` of [`pack`] into this place.
+pub fn render_to(output: &Path, words: &[&str]) -> Command {
+    let mut command = view(&["render"]);
+    command.arg(pack()).arg("-o").arg(output).args(words);
+    command
+}
+
+/// That it succeeds, with nothing on standard output; what it says on standard error.
+pub fn done(command: Command) -> String {
+    let output = run(command);
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{stderr}");
+    assert!(output.stdout.is_empty());
+    stderr
+}
+
 /// That it failed as it should, and says all of these.
 pub fn failed(output: &Output, code: i32, parts: &[&str]) {
     let stderr = String::from_utf8_lossy(&output.stderr);

@@ -14,23 +14,7 @@ use half::f16;
 use welkin_runtime::internals::tonemap;
 use welkin_runtime::params::Tonemap;
 
-use crate::common::{failed, pack, run, view};
-
-/// `welkin-view render` of [`pack`] into this place.
-fn render(output: &Path, words: &[&str]) -> Command {
-    let mut command = view(&["render"]);
-    command.arg(pack()).arg("-o").arg(output).args(words);
-    command
-}
-
-/// That it succeeds, with nothing on standard output.
-fn done(command: Command) -> String {
-    let output = run(command);
-    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{stderr}");
-    assert!(output.stdout.is_empty());
-    stderr
-}
+use crate::common::{done, failed, render_to, run};
 
 /// Width, height and RGB of an EXR, row by row: the reader hands out its blocks in any order.
 fn exr(file: &Path) -> (usize, usize, Vec<[f16; 3]>) {
@@ -66,10 +50,10 @@ fn a_panorama_is_the_same_sky_in_every_format() {
     let place = |name: &str| folder.path().join(name);
     let words = ["--equirect", "128", "--time", "0.4", "--cover", "0"];
     for name in ["sky.exr", "sky.hdr"] {
-        done(render(&place(name), &words));
+        done(render_to(&place(name), &words));
     }
     let filmic = [&words[..], &["--tonemap", "filmic"]].concat();
-    done(render(&place("sky.png"), &filmic));
+    done(render_to(&place("sky.png"), &filmic));
     let (width, height, radiance) = exr(&place("sky.exr"));
     assert_eq!((width, height), (128, 64));
     // The sun is brighter than white.
@@ -98,7 +82,7 @@ fn a_panorama_is_the_same_sky_in_every_format() {
         }
     }
     // East in the middle is a quarter turn.
-    done(render(
+    done(render_to(
         &place("east.exr"),
         &[&words[..], &["--azimuth", "90"]].concat(),
     ));
@@ -120,11 +104,11 @@ fn a_picture_of_a_panorama_has_the_curve_and_the_exposure_that_were_asked_for() 
     let folder = tempfile::tempdir().unwrap();
     let place = |name: &str| folder.path().join(name);
     let words = ["--equirect", "64", "--time", "0.4", "--cover", "0.3"];
-    done(render(&place("sky.exr"), &words));
+    done(render_to(&place("sky.exr"), &words));
     let (.., radiance) = exr(&place("sky.exr"));
     for tonemap in Tonemap::ALL {
         let own = ["--tonemap", tonemap.name(), "--exposure-ev", "-1"];
-        done(render(&place("sky.png"), &[&words[..], &own].concat()));
+        done(render_to(&place("sky.png"), &[&words[..], &own].concat()));
         let png = image::open(place("sky.png")).unwrap().into_rgb8();
         for (radiance, png) in radiance.iter().zip(png.pixels()) {
             let exposed = Vec3::from([0, 1, 2].map(|c| 0.5 * radiance[c].to_f32()));
@@ -143,7 +127,7 @@ fn a_picture_of_a_panorama_has_the_curve_and_the_exposure_that_were_asked_for() 
 fn what_is_below_the_horizon_is_the_haze_of_the_ground() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("sky.exr");
-    done(render(&file, &["--equirect", "64", "--time", "0.45"]));
+    done(render_to(&file, &["--equirect", "64", "--time", "0.45"]));
     let (.., radiance) = exr(&file);
     let mean = |row: usize| {
         let row = &radiance[row * 64..(row + 1) * 64];
@@ -180,8 +164,8 @@ fn another_reader_finds_the_faces_of_the_ktx2_in_order() {
     let folder = tempfile::tempdir().unwrap();
     let (file, faces) = (folder.path().join("sky.ktx2"), folder.path().join("faces"));
     let words = ["--cubemap", "32", "--time", "0.3", "--method", "lit"];
-    done(render(&file, &words));
-    done(render(&faces, &words));
+    done(render_to(&file, &words));
+    done(render_to(&faces, &words));
     let (container, texels) = ktx_parse(&file);
     let levels: Vec<usize> = (0..6)
         .map(|level| 6 * 8 * (32 >> level) * (32 >> level))
@@ -217,27 +201,27 @@ fn another_reader_finds_the_faces_of_the_ktx2_in_order() {
 fn a_folder_of_faces_is_replaced_and_another_is_not() {
     let folder = tempfile::tempdir().unwrap();
     let place = folder.path().join("sky");
-    done(render(&place, &["--cubemap", "16"]));
+    done(render_to(&place, &["--cubemap", "16"]));
     let png = ["--cubemap", "16", "--format", "png"];
-    done(render(&place, &png));
+    done(render_to(&place, &png));
     let made = files(&place);
     assert_eq!(
         made.keys().collect::<Vec<_>>(),
         ["nx.png", "ny.png", "nz.png", "px.png", "py.png", "pz.png"]
     );
     fs::write(place.join(".DS_Store"), "").unwrap();
-    done(render(&place, &png));
+    done(render_to(&place, &png));
     assert_eq!(files(&place), made);
     fs::write(place.join("thesis.txt"), "years").unwrap();
     failed(
-        &run(render(&place, &png)),
+        &run(render_to(&place, &png)),
         1,
         &["thesis.txt", "is not replaced"],
     );
     fs::remove_file(place.join("thesis.txt")).unwrap();
     assert_eq!(files(&place), made);
     failed(
-        &run(render(&folder.path().join("none/sky"), &png)),
+        &run(render_to(&folder.path().join("none/sky"), &png)),
         1,
         &["none/sky", "cannot be written"],
     );
@@ -254,11 +238,11 @@ fn parts_of_a_sequence_are_together_the_whole_byte_for_byte() {
             "--method", method, "--size", "48x32", "--at", "5", "--frames", "5", "--fps", "0.05",
             "--up", "1200", "--speed", "1",
         ];
-        let told = done(render(&whole, &common));
+        let told = done(render_to(&whole, &common));
         assert!(told.contains("5 frames drawn"), "{told}");
         // At the same time, into one folder.
         let shards = ["2/3", "1/3", "3/3"].map(|shard| {
-            let mut command = render(&parts, &[&common[..], &["--shard", shard]].concat());
+            let mut command = render_to(&parts, &[&common[..], &["--shard", shard]].concat());
             command.stderr(std::process::Stdio::null());
             command.spawn().unwrap()
         });
@@ -279,7 +263,7 @@ fn parts_of_a_sequence_are_together_the_whole_byte_for_byte() {
         let words = [
             "--method", method, "--size", "48x32", "--at", "65", "--up", "1200", "--speed", "1",
         ];
-        done(render(&alone, &words));
+        done(render_to(&alone, &words));
         assert!(
             fs::read(&alone).unwrap() == frames["frame-000003.png"],
             "{method}"
@@ -309,7 +293,7 @@ fn sequences_are_of_maps_and_other_formats_too() {
         ),
     ] {
         let place = folder.path().join(name);
-        done(render(&place, &[words, &["--frames", "2"]].concat()));
+        done(render_to(&place, &[words, &["--frames", "2"]].concat()));
         let made = files(&place);
         assert!(
             made.len() == 2 && made.contains_key(file),
@@ -327,22 +311,22 @@ fn frames_are_replaced_and_a_folder_with_something_else_is_left_alone() {
     fs::create_dir(&place).unwrap();
     fs::write(place.join("frame-000001.png"), "old").unwrap();
     fs::write(place.join("frame-000007.png"), "of a longer one").unwrap();
-    done(render(&place, &words));
+    done(render_to(&place, &words));
     let made = files(&place);
     assert_eq!(made.len(), 3);
     assert!(made["frame-000001.png"] != b"old" && made["frame-000007.png"] == b"of a longer one");
     fs::write(place.join("notes.txt"), "mine").unwrap();
     failed(
-        &run(render(&place, &words)),
+        &run(render_to(&place, &words)),
         1,
         &["notes.txt", "choose another folder"],
     );
     let file = folder.path().join("file");
     fs::write(&file, "mine").unwrap();
-    failed(&run(render(&file, &words)), 1, &["is not a folder"]);
+    failed(&run(render_to(&file, &words)), 1, &["is not a folder"]);
     assert_eq!(fs::read(&file).unwrap(), b"mine");
     failed(
-        &run(render(&folder.path().join("none/frames"), &words)),
+        &run(render_to(&folder.path().join("none/frames"), &words)),
         1,
         &["none/frames", "cannot be written"],
     );
@@ -353,7 +337,7 @@ fn frames_are_replaced_and_a_folder_with_something_else_is_left_alone() {
 fn an_interrupted_sequence_leaves_whole_frames() {
     let folder = tempfile::tempdir().unwrap();
     let place = folder.path().join("frames");
-    let mut command = render(&place, &["--size", "320x200", "--frames", "100000"]);
+    let mut command = render_to(&place, &["--size", "320x200", "--frames", "100000"]);
     command.stderr(std::process::Stdio::piped());
     let child = command.spawn().unwrap();
     // As soon as there is a frame, and long before there are all.

@@ -13,29 +13,13 @@ use welkin_pack::{Texture, ktx};
 use welkin_viewer::export::cube::{texel_direction, texel_solid_angle};
 use welkin_viewer::export::harmonics::{COUNT, Harmonics};
 
-use crate::common::{failed, pack, run, view};
-
-/// `welkin-view render` of [`pack`] into this place.
-fn render(output: &Path, words: &[&str]) -> Command {
-    let mut command = view(&["render"]);
-    command.arg(pack()).arg("-o").arg(output).args(words);
-    command
-}
+use crate::common::{done, failed, pack, render_to, run, view};
 
 /// `welkin-view cube` of a panorama into this place.
 fn cube(panorama: &Path, output: &Path, words: &[&str]) -> Command {
     let mut command = view(&["cube"]);
     command.arg(panorama).arg("-o").arg(output).args(words);
     command
-}
-
-/// That it succeeds, with nothing on standard output; what it says on standard error.
-fn done(command: Command) -> String {
-    let output = run(command);
-    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{stderr}");
-    assert!(output.stdout.is_empty());
-    stderr
 }
 
 /// A texture, what its key/value data says, and the JSON beside it.
@@ -122,7 +106,7 @@ fn a_real_sky_has_its_irradiance_and_its_levels() {
         &["--time", "0.02"],
     ] {
         let map = ["--cubemap", "64", "--prefiltered"];
-        done(render(&file, &[&map[..], words].concat()));
+        done(render_to(&file, &[&map[..], words].concat()));
         let Files {
             texture,
             texts,
@@ -175,11 +159,11 @@ fn a_panorama_of_a_sky_is_the_light_of_that_sky() {
     let place = |name: &str| folder.path().join(name);
     let sky = ["--time", "0.4", "--cover", "0.2"];
     let map = ["--cubemap", "64", "--prefiltered"];
-    done(render(&place("sky.ktx2"), &[&map[..], &sky].concat()));
+    done(render_to(&place("sky.ktx2"), &[&map[..], &sky].concat()));
     let wanted = files(&place("sky.ktx2"));
     for (name, azimuth) in [("north.exr", "0"), ("east.hdr", "90")] {
         let panorama = ["--equirect", "1024", "--azimuth", azimuth];
-        done(render(&place(name), &[&panorama[..], &sky].concat()));
+        done(render_to(&place(name), &[&panorama[..], &sky].concat()));
         let words = ["--size", "64", "--azimuth", azimuth];
         assert_eq!(done(cube(&place(name), &place("cube.ktx2"), &words)), "");
         let found = files(&place("cube.ktx2"));
@@ -204,7 +188,7 @@ fn a_panorama_of_a_sky_is_the_light_of_that_sky() {
 fn the_number_of_threads_changes_no_byte() {
     let folder = tempfile::tempdir().unwrap();
     let place = |name: &str| folder.path().join(name);
-    done(render(
+    done(render_to(
         &place("sky.exr"),
         &["--equirect", "256", "--time", "0.4"],
     ));
@@ -229,7 +213,7 @@ fn inputs_stay_and_outputs_come_whole_or_not_at_all() {
         names.sort();
         names
     };
-    done(render(&place("sky.hdr"), &["--equirect", "32"]));
+    done(render_to(&place("sky.hdr"), &["--equirect", "32"]));
     let bytes = fs::read(place("sky.hdr")).unwrap();
     // A panorama whose name is that of the texture, or of the JSON.
     for (input, output) in [("a.ktx2", "a.ktx2"), ("b.json", "b.ktx2")] {
@@ -250,7 +234,7 @@ fn inputs_stay_and_outputs_come_whole_or_not_at_all() {
     );
     let light = ["--cubemap", "16", "--prefiltered"];
     failed(
-        &run(render(&place("c.ktx2"), &light)),
+        &run(render_to(&place("c.ktx2"), &light)),
         1,
         &["c.json", "is not a file"],
     );
@@ -264,11 +248,11 @@ fn inputs_stay_and_outputs_come_whole_or_not_at_all() {
         &["cannot be written"],
     );
     let inside = pack().join("light.ktx2");
-    failed(&run(render(&inside, &light)), 1, &["light.ktx2"]);
+    failed(&run(render_to(&inside, &light)), 1, &["light.ktx2"]);
     assert!(!inside.exists());
     // What is no panorama.
     fs::write(place("text.hdr"), "no light").unwrap();
-    done(render(&place("frame.hdr"), &["--size", "40x30"]));
+    done(render_to(&place("frame.hdr"), &["--size", "40x30"]));
     for (input, told) in [
         ("none.hdr", "cannot be read"),
         ("text.hdr", "unknown"),
