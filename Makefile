@@ -22,11 +22,12 @@ ADAPTER := gpu::tests headless::tests pass_times::tests timing::tests bench::muk
 RECIPES := 20000
 SEEDS := 10000
 
-# The three skies that every method draws.
+# The skies that every method draws: at sunset towards the sun and away from it.
 METHODS := packed octaves fbm lit sprites
-NOON := --time 0.45 --azimuth 100 --elevation 28
-SUNSET := --time 0.742 --sunset 1 --cover 0.62 --height 0.6 --azimuth 270 --elevation 20
-STORM := --time 0.42 --cover 0.92 --density 0.75 --azimuth 40 --elevation 25
+NOON := --time 0.45 --azimuth 100 --elevation 17
+SUNSET := --time 0.742 --cover 0.55 --height 0.6 --azimuth 270 --elevation 14
+AWAY := --time 0.742 --cover 0.55 --height 0.6 --azimuth 90 --elevation 14
+STORM := --time 0.42 --cover 0.95 --density 0.8 --azimuth 40 --elevation 15
 
 # Mesa's device selection complains of a desktop session that is not there; without it, nothing is lost.
 export NODEVICE_SELECT := 1
@@ -53,6 +54,7 @@ sky: gpu-tools ## Bake the default pack, check it, and draw pictures of every me
 	for method in $(METHODS); do \
 	  $(VIEW) render $(PACK) -o out/$$method-noon.png $(FRAME) --method $$method $(NOON); \
 	  $(VIEW) render $(PACK) -o out/$$method-sunset.png $(FRAME) --method $$method $(SUNSET); \
+	  $(VIEW) render $(PACK) -o out/$$method-away.png $(FRAME) --method $$method $(AWAY); \
 	done
 	$(VIEW) render $(PACK) -o out/packed-storm.png $(FRAME) --method packed $(STORM)
 	$(VIEW) render $(PACK) -o out/octaves-storm.png $(FRAME) --method octaves $(STORM)
@@ -66,9 +68,9 @@ sky: gpu-tools ## Bake the default pack, check it, and draw pictures of every me
 	$(VIEW) render $(PACK) -o out/panorama.png --equirect 1024 --method lit --time 0.742 --sunset 1 --cover 0.62
 	$(VIEW) render $(PACK) -o out/figure2.png $(FRAME) --cover 0.69 --height 1.0 --density 0 --sunset 0.72 --speed 0.1 --time 0.35 --azimuth 130 --elevation 28 --flare 0
 	$(VIEW) render $(PACK) -o out/figure4.png $(FRAME) --cover 0.57 --height 0.52 --density 0.84 --sunset 0.43 --speed 0 --time 0.72 --azimuth 250 --elevation 26 --flare 0
-	$(VIEW) render $(PACK) -o out/night.png $(FRAME) --time 0 --cover 0.35 --azimuth 72 --elevation 42 --fov 75
+	$(VIEW) render $(PACK) -o out/night.png $(FRAME) --moon 0 --time 0 --cover 0.35 --azimuth 72 --elevation 42 --fov 75
 	$(VIEW) render $(PACK) -o out/overcast.png $(FRAME) --time 0.45 --cover 1 --density 0.6 --azimuth 30 --elevation 26
-	$(VIEW) render $(PACK) -o out/flare.png $(FRAME) --time 0.64 --cover 0.55 --azimuth 208 --elevation 26
+	$(VIEW) render $(PACK) -o out/flare.png $(FRAME) --flare 1 --time 0.64 --cover 0.55 --azimuth 208 --elevation 26
 	$(VIEW) render $(PACK) -o out/parallax-here.png $(FRAME) --method octaves --cover 0.5 $(NOON)
 	$(VIEW) render $(PACK) -o out/parallax-there.png $(FRAME) --method octaves --cover 0.5 $(NOON) --north 400
 	$(WELKIN) bake assets-src/recipes/skybox.toml -o $(SKYBOX_PACK) --force

@@ -76,6 +76,7 @@ pub fn bake_from(
         recipe: resolved.recipe.clone(),
         inputs: reader.into_hashes(),
         noon_elevation_rad: resolved.sun.noon_elevation_rad,
+        aerosol_depths: resolved.sky.aerosol_depths,
         noise: resolved.clouds.noise,
         detail: resolved.clouds.detail,
     };
@@ -178,7 +179,7 @@ fn make(resolved: &Resolved, reader: &Reader, steps: &Steps) -> Result<Vec<Sourc
     step(STEPS[5], 5)?;
     let galaxy = galaxy::image(&resolved.galaxy, seed);
     step(STEPS[6], 6)?;
-    let sky = sky::image(&resolved.sky, resolved.sun.noon_elevation_rad);
+    let sky = sky::images(&resolved.sky);
     step(STEPS[7], 7)?;
     let sun = sun::image(&resolved.sun);
     step(STEPS[8], 8)?;
@@ -195,7 +196,7 @@ fn make(resolved: &Resolved, reader: &Reader, steps: &Steps) -> Result<Vec<Sourc
         source(Role::Clouds, clouds.format, vec![clouds_image]),
         source(Role::Stars, Format::Rgba8Unorm, vec![stars]),
         source(Role::Galaxy, Format::R8Unorm, vec![galaxy]),
-        source(Role::Sky, Format::Rgba16Float, vec![sky]),
+        source(Role::Sky, Format::Rgba16Float, sky),
         source(Role::Sun, Format::Rg8Unorm, vec![sun]),
         source(Role::Octaves, Format::Rgba8Unorm, vec![octaves]),
         source(Role::Fbm, Format::Rgba8Unorm, fbm),

@@ -10,10 +10,11 @@ use std::ops::Range;
 
 use toml::{Spanned, Value};
 use welkin_pack::Format;
+use welkin_pack::air::CLEAR_AEROSOL_DEPTH;
 use welkin_pack::manifest::FractalNoise;
 
 use crate::error::RecipeError;
-use crate::recipe::tables::{Entry, Fractal};
+use crate::recipe::tables::{Entry, Fractal, Sky};
 use crate::recipe::{Recipe, line_and_column};
 use crate::settings::{
     CloudSettings, FbmSettings, FlareSettings, GalaxySettings, GradientSettings, PhotoSettings,
@@ -30,6 +31,11 @@ const DETAIL_MEANS: [f32; 2] = [0.02, 0.8];
 /// Mean amount of cloud of the two together, `photo + noise (1 - photo)`, since every value of one drifts over every value
 /// of the other. With less no cover makes an overcast, with more none opens the sky: the rule `cloud-cover` of `check`.
 const AMOUNTS: [f32; 2] = [0.15, 0.7];
+
+/// `sky.most_haze` by default: aerosol of an optical depth of 0.24, a hazy summer's day.
+const MOST_HAZE: f32 = 6.0;
+/// How much more the most haze is at the least: half floats tell them apart.
+const LEAST_MORE_HAZE: f32 = 0.1;
 
 impl Recipe {
     /// Fills defaults and checks every value. `seed` overrides the recipe's.
@@ -48,9 +54,10 @@ impl Recipe {
             stars: self.stars()?,
             galaxy: self.galaxy()?,
             sky: SkySettings {
-                width: self.size("sky.width", &t.sky.width, 128, 16, 512)?,
-                height: self.size("sky.height", &t.sky.height, 64, 16, 256)?,
-                haze: self.real("sky.haze", &t.sky.haze, 1.0, 0.0, 10.0)?,
+                width: self.size("sky.width", &t.sky.width, 16, 16, 64)?,
+                height: self.size("sky.height", &t.sky.height, 32, 32, 64)?,
+                suns: self.integer("sky.suns", &t.sky.suns, 40, 16, 64)?,
+                aerosol_depths: self.aerosol_depths(&t.sky)?,
             },
             sun: SunSettings {
                 size: self.size("sun.size", &t.sun.size, 128, 16, 1024)?,
@@ -259,6 +266,20 @@ impl Recipe {
         match value.get_ref().as_str() {
             Some(text) if !text.is_empty() => Ok(Some(text.to_string())),
             _ => Err(self.refuse(key, value, "the path of a PNG or JPEG file, as text")),
+        }
+    }
+
+    /// Optical depths of the aerosol: those of `haze` and of `most_haze`, which is more.
+    fn aerosol_depths(&self, sky: &Sky) -> Result<[f32; 2], RecipeError> {
+        let haze = self.real("sky.haze", &sky.haze, 1.0, 0.0, 10.0)?;
+        let default = MOST_HAZE.max(2.0 * haze);
+        let most = self.real("sky.most_haze", &sky.most_haze, default, 0.1, 40.0)?;
+        match &sky.most_haze {
+            Some(entry) if most < haze + LEAST_MORE_HAZE => {
+                let expected = format!("{LEAST_MORE_HAZE} more than sky.haze, {haze}, or more");
+                Err(self.refuse("sky.most_haze", entry, expected))
+            }
+            _ => Ok([haze, most].map(|haze| haze * CLEAR_AEROSOL_DEPTH)),
         }
     }
 

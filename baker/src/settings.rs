@@ -25,7 +25,7 @@ pub struct Resolved {
     pub stars: StarSettings,
     /// The galaxy.
     pub galaxy: GalaxySettings,
-    /// The day gradient.
+    /// The clear sky.
     pub sky: SkySettings,
     /// The sun.
     pub sun: SunSettings,
@@ -104,15 +104,17 @@ pub struct GalaxySettings {
     pub dust: f32,
 }
 
-/// The day gradient.
+/// The clear sky.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SkySettings {
-    /// Columns: times of day.
+    /// Columns: azimuths from the sun.
     pub width: u32,
     /// Rows: elevations.
     pub height: u32,
-    /// Aerosol, as a multiple of a clear continental day.
-    pub haze: f32,
+    /// Elevations of the sun.
+    pub suns: u32,
+    /// Optical depths of the aerosol to the zenith at 550 nm: as it is without haze, and with all of it.
+    pub aerosol_depths: [f32; 2],
 }
 
 /// The sun.

@@ -125,6 +125,7 @@ pub const PRESETS: [Preset; 6] = [
             ("lightning", "none"),
             ("palette", "fair"),
             ("stars", "true"),
+            ("moon", "0"),
         ],
         hour: Hour::Night,
     },

@@ -32,6 +32,8 @@ pub struct PackInfo {
     pub inputs: Vec<Input>,
     /// Elevation of the sun at noon, in radians.
     pub noon_elevation_rad: f32,
+    /// Optical depths of the aerosol, as [`Manifest::aerosol_depths`].
+    pub aerosol_depths: [f32; 2],
     /// What the noise of the clouds is made of.
     pub noise: FractalNoise,
     /// What their detail is made of.
@@ -197,6 +199,7 @@ fn manifest(info: PackInfo, textures: Vec<TextureEntry>) -> Manifest {
         recipe: info.recipe,
         inputs: info.inputs,
         noon_elevation_rad: info.noon_elevation_rad,
+        aerosol_depths: info.aerosol_depths,
         textures,
         field: None,
         seal: String::new(),

@@ -1,5 +1,6 @@
 //! Sky texture packs: the contract between the program that bakes them and the runtime that draws them.
 
+pub mod air;
 #[cfg(feature = "write")]
 mod build;
 pub mod check;

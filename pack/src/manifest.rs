@@ -20,7 +20,10 @@ pub const MANIFEST_FILE: &str = "pack.json";
 pub const KIND: &str = "welkin-pack";
 
 /// The version of the pack format that this crate reads and writes.
-pub const VERSION: u64 = 5;
+pub const VERSION: u64 = 6;
+
+/// The most aerosol that a pack's sky may have: a sandstorm.
+pub const MAX_AEROSOL_DEPTH: f32 = 2.0;
 
 /// A pack's manifest. docs/pack-format.md describes every key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -42,6 +45,8 @@ pub struct Manifest {
     pub inputs: Vec<Input>,
     /// Elevation of the sun at noon, in radians; the textures were made for it.
     pub noon_elevation_rad: f32,
+    /// Optical depths of the aerosol to the zenith at 550 nm that the clear sky was made for: without haze and with all of it.
+    pub aerosol_depths: [f32; 2],
     /// The textures, in the order of [`Role::ALL`].
     pub textures: Vec<TextureEntry>,
     /// The clouds in space, if it has any.
@@ -188,6 +193,12 @@ impl Manifest {
         if !(noon > 0.0 && noon <= std::f32::consts::FRAC_PI_2) {
             let expected = "above 0 and up to pi/2";
             return Err(PackError::value(file, "noon_elevation_rad", noon, expected));
+        }
+        let [clear, hazy] = self.aerosol_depths;
+        if !(clear >= 0.0 && clear < hazy && hazy <= MAX_AEROSOL_DEPTH) {
+            let found = format!("[{clear}, {hazy}]");
+            let expected = format!("two rising numbers from 0 to {MAX_AEROSOL_DEPTH}");
+            return Err(PackError::value(file, "aerosol_depths", found, expected));
         }
         for (index, entry) in self.textures.iter().enumerate() {
             if self.textures[..index].iter().any(|e| e.role >= entry.role) {

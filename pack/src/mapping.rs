@@ -6,12 +6,17 @@
 mod cube;
 mod flares;
 mod sheet;
+mod sky;
 
 use std::f32::consts::SQRT_2;
 
 pub use cube::{cube_texel, cube_to_direction, direction_to_cube};
 pub use flares::FlareCell;
 pub use sheet::{SheetCell, SheetKind};
+pub use sky::{
+    LOWEST_SUN_RAD, SKY_HAZES, SKY_PARTS, SkyLayer, layer_to_sun, sky_to_texel, sun_to_layer,
+    texel_to_sky,
+};
 
 /// Azimuth (from north towards east) and elevation, both in radians, to a unit direction.
 pub fn direction_from_angles(azimuth_rad: f32, elevation_rad: f32) -> [f32; 3] {
@@ -120,25 +125,6 @@ fn swaps(tile: [i32; 2]) -> bool {
     (tile[0] >> 1) & 1 != (tile[1] >> 1) & 1
 }
 
-/// Elevation and time of day to texel coordinates of the role `sky` (0 is the centre of the first texel).
-///
-/// Rows: row 0 is the horizon, the last row the zenith, evenly spaced in the square root of the sine of
-/// the elevation, since the sky changes fastest low down. Columns: column `i` is the time `i / width`,
-/// periodic. Elevations below the horizon read row 0.
-pub fn sky_to_texel(time: f32, sin_elevation: f32, width: u32, height: u32) -> [f32; 2] {
-    let column = (time - libm::floorf(time)) * width as f32;
-    [
-        column,
-        libm::sqrtf(sin_elevation.clamp(0.0, 1.0)) * (height - 1) as f32,
-    ]
-}
-
-/// The inverse of [`sky_to_texel`]: time of day and sine of the elevation of a texel coordinate.
-pub fn texel_to_sky(texel: [f32; 2], width: u32, height: u32) -> (f32, f32) {
-    let root = texel[1] / (height - 1) as f32;
-    (texel[0] / width as f32, root * root)
-}
-
 /// Where in the rows of the sunset gradient a direction lies: 0 (top) opposite the sun's azimuth on the
 /// horizon, 1 (bottom) on the horizon below the sun. `sun_azimuth` is a unit vector (east, south).
 pub fn direction_to_gradient(direction: [f32; 3], sun_azimuth: [f32; 2]) -> f32 {
@@ -218,12 +204,6 @@ mod tests {
             let place = dome_to_star([x, y]);
             prop_assert!(place.uv.iter().all(|c| (0.0..=1.0).contains(c)));
             prop_assert!(apart(&[x, y], &star_to_dome(place)) < 1e-6);
-        }
-
-        #[test]
-        fn sky_and_back(time in 0.0_f32..0.999, sin_elevation in 0.0_f32..1.0) {
-            let (t, s) = texel_to_sky(sky_to_texel(time, sin_elevation, 128, 64), 128, 64);
-            prop_assert!(apart(&[time, sin_elevation], &[t, s]) < 1e-5);
         }
     }
 

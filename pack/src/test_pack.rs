@@ -1,13 +1,14 @@
 //! A small pack that breaks no rule, for tests to break.
 
+use crate::air::{skylight_lx, unit_luminance_cd_m2};
 use crate::build::{PackInfo, Source};
 use crate::format::Format;
 use crate::image::Image;
 use crate::layer_kind::LayerKind;
 use crate::manifest::FractalNoise;
 use crate::mapping::{
-    FBM_STEPS_A_TILE, FlareCell, SheetCell, SheetKind, cube_to_direction, galaxy_uv_to_direction,
-    night_share, sun_direction,
+    FBM_STEPS_A_TILE, FlareCell, SKY_HAZES, SheetCell, SheetKind, cube_to_direction,
+    galaxy_uv_to_direction, layer_to_sun, texel_to_sky,
 };
 use crate::pack::Pack;
 use crate::role::Role;
@@ -43,6 +44,7 @@ pub(crate) fn info() -> PackInfo {
         recipe: "name = \"test\"\n".to_string(),
         inputs: Vec::new(),
         noon_elevation_rad: NOON_RAD,
+        aerosol_depths: [0.04, 0.24],
         noise: waves_as_noise(NOISE_MEAN),
         detail: waves_as_noise(DETAIL_MEAN),
     }
@@ -73,7 +75,7 @@ pub(crate) fn sources() -> Vec<Source> {
         source(Role::Clouds, vec![clouds(64)]),
         source(Role::Stars, vec![stars(128, 500)]),
         source(Role::Galaxy, vec![galaxy(32)]),
-        source(Role::Sky, vec![sky(64, 16)]),
+        source(Role::Sky, sky()),
         source(Role::Sun, vec![sun(32)]),
         source(Role::Octaves, vec![octaves()]),
         source(Role::Fbm, fbm()),
@@ -207,25 +209,25 @@ fn galaxy(size: u32) -> Image {
     image
 }
 
-fn sky(width: u32, height: u32) -> Image {
-    let mut image = Image::new(width, height, 4);
-    for y in 0..height {
-        for x in 0..width {
-            // The evening is as the morning, to the bit.
-            let time = x.min(width - x) as f32 / width as f32;
-            let half = 0.5 - 0.5 * libm::cosf(std::f32::consts::TAU * time);
-            let day = half * half;
-            let low = 1.0 - y as f32 / height as f32;
-            let light = 0.01 + day * (0.4 + 0.5 * low);
-            image.texel_mut(x, y).copy_from_slice(&[
-                light * 0.7,
-                light * 0.8,
-                light,
-                night_share(sun_direction(x as f32 / width as f32, NOON_RAD)[1]),
-            ]);
+/// A sky of 16 suns that gives the light of the hour.
+fn sky() -> Vec<Image> {
+    const SIZE: [u32; 2] = [8, 16];
+    let mut images = Vec::new();
+    for (haze, sun) in (0..SKY_HAZES).flat_map(|haze| (0..16).map(move |sun| (haze, sun))) {
+        let sun_rad = layer_to_sun(sun as f32, 16);
+        let level = skylight_lx(sun_rad) / unit_luminance_cd_m2(sun_rad) / 5.0;
+        let mut parts = [(); 2].map(|()| Image::new(SIZE[0], SIZE[1], 4));
+        for (y, x) in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (y, x))) {
+            let (sine, azimuth_cos) = texel_to_sky([x as f32, y as f32], SIZE);
+            // On the side of the sun it is brighter, at the zenith there are no sides.
+            let side = 1.0 + 0.5 * azimuth_cos * libm::sqrtf((1.0 - sine).max(0.0));
+            let light = level * (2.0 - sine) * side;
+            parts[0].texel_mut(x, y)[..3].copy_from_slice(&[light * 0.7, light * 0.8, light]);
+            parts[1].texel_mut(x, y)[..3].fill(level * (1.0 + haze as f32));
         }
+        images.extend(parts);
     }
-    image
+    images
 }
 
 fn sun(size: u32) -> Image {

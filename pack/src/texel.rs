@@ -81,25 +81,25 @@ pub struct GalaxyTexel {
 /// A texel of the role `sky`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SkyTexel {
-    /// Radiance of the clear sky, linear BT.709; 1 is the white of a sunlit cloud at noon.
-    pub radiance: [f32; 3],
-    /// Share of the night sky that shows through, 0..1.
-    pub night: f32,
+    /// Radiance of the clear sky, or the light of its aureole, linear BT.709, in the unit of the sun's elevation.
+    pub light: [f32; 3],
+    /// Nothing: 0.
+    pub padding: f32,
 }
 
 impl SkyTexel {
     /// The nearest RGBA16F texel, little-endian.
     pub fn encode(self) -> [u8; 8] {
-        let [r, g, b] = self.radiance;
-        halves([r, g, b, self.night])
+        let [r, g, b] = self.light;
+        halves([r, g, b, self.padding])
     }
 
     /// Reads an RGBA16F texel.
     pub fn decode(bytes: [u8; 8]) -> SkyTexel {
-        let [r, g, b, night] = from_halves(bytes);
+        let [r, g, b, padding] = from_halves(bytes);
         SkyTexel {
-            radiance: [r, g, b],
-            night,
+            light: [r, g, b],
+            padding,
         }
     }
 }

@@ -2,12 +2,13 @@
 
 use crate::clear_sky::flares::FlareUniforms;
 use crate::clear_sky::galaxy::GalaxyUniforms;
-use crate::clear_sky::gradient::SkyUniforms;
+use crate::clear_sky::ground::GroundUniforms;
 #[cfg(feature = "perez")]
 use crate::clear_sky::perez::PerezUniforms;
 use crate::clear_sky::skybox::SkyboxUniforms;
 use crate::clear_sky::stars::StarUniforms;
 use crate::clear_sky::sun::SunUniforms;
+use crate::clear_sky::table::SkyUniforms;
 #[cfg(feature = "fbm")]
 use crate::clouds::fbm::FbmUniforms;
 #[cfg(feature = "lit")]
@@ -45,6 +46,8 @@ uniforms! {
         camera: CameraUniforms,
         /// Clear sky.
         sky: SkyUniforms,
+        /// The ground below the horizon.
+        ground: GroundUniforms,
         /// Clear sky of Perez and others.
         #[cfg(feature = "perez")]
         perez: PerezUniforms,

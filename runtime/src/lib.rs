@@ -70,7 +70,8 @@ pub use internals::error::SkyError;
 pub use internals::geometry::camera::Camera;
 pub use internals::oktas::Oktas;
 pub use internals::params::{self, Method, SkyParams};
-pub use internals::sky::Sky;
+pub use internals::sky::air;
+pub use internals::sky::{Luminary, Sky, SkyLight};
 
 #[cfg(feature = "sprites")]
 pub(crate) use internals::sprites;

@@ -2,8 +2,10 @@
 
 #[cfg(feature = "sprites")]
 use welkin_pack::field::Hour;
-use welkin_pack::{Image, Pack, Role, StarTexel, Texture};
+use welkin_pack::{Pack, Role, StarTexel, Texture};
 
+use crate::clear_sky::light::LitSky;
+use crate::clear_sky::table::SkyTable;
 #[cfg(feature = "fbm")]
 use crate::clouds::fbm::map::Octaves;
 #[cfg(feature = "octaves")]
@@ -11,7 +13,6 @@ use crate::clouds::octaves;
 use crate::error::{SkyError, texture};
 #[cfg(feature = "octaves")]
 use crate::geometry::math::finite;
-#[cfg(feature = "octaves")]
 use crate::params::SkyParams;
 #[cfg(feature = "sprites")]
 use crate::sprites;
@@ -21,12 +22,14 @@ use crate::sprites;
 pub struct PackData {
     /// Elevation of the sun at noon, in radians.
     pub noon_elevation_rad: f32,
-    /// The day gradient.
-    pub sky: Image,
+    /// The table of the clear sky.
+    pub sky: SkyTable,
     /// Texels a side of the clouds.
     pub clouds_texels: u32,
     /// Means of photo, noise and detail.
     pub cloud_means: [f32; 3],
+    /// Photo, noise and detail at places of the clouds that have nothing to do with each other.
+    pub cloud_texels: Vec<[f32; 3]>,
     /// Texels a side of the stars.
     pub stars: u32,
     /// What a step of each of their levels stands for: [`StarTexel::level_units`].
@@ -63,9 +66,10 @@ impl PackData {
         let side = |t: &Texture| (t.width, t.levels.len());
         Ok(PackData {
             noon_elevation_rad: pack.manifest().noon_elevation_rad,
-            sky: texture(pack, Role::Sky)?.image(0, 0),
+            sky: SkyTable::new(texture(pack, Role::Sky)?, pack.manifest().aerosol_depths),
             clouds_texels: texture(pack, Role::Clouds)?.width,
             cloud_means: cloud_means(pack)?,
+            cloud_texels: cloud_texels(texture(pack, Role::Clouds)?),
             stars: texture(pack, Role::Stars)?.width,
             star_units: StarTexel::level_units(texture(pack, Role::Stars)?),
             sun: side(texture(pack, Role::Sun)?),
@@ -84,12 +88,43 @@ impl PackData {
         })
     }
 
+    /// The light of a moment and its clear sky. `params` are in range.
+    pub fn lit_sky(&self, params: &SkyParams) -> LitSky {
+        LitSky::new(
+            &self.sky,
+            self.noon_elevation_rad,
+            params.time,
+            params.haze,
+            params.moon,
+        )
+    }
+
     /// The states of the octaves method's noise at a moment: see [`octaves::map::states`].
     #[cfg(feature = "octaves")]
     pub fn octave_states(&self, params: &SkyParams, seconds: f64) -> Vec<f32> {
         let seconds = finite(seconds);
         octaves::map::states(&self.noise, self.seed, &params.clamped(), seconds)
     }
+}
+
+/// Photo, noise and detail at 512 places each, a golden ratio of the texture apart, each from another start.
+fn cloud_texels(clouds: &Texture) -> Vec<[f32; 3]> {
+    const COUNT: u64 = 512;
+    let image = clouds.image(0, 0);
+    let texels = u64::from(image.width) * u64::from(image.height);
+    // Odd, so that no power of two shares a factor with it.
+    let step = (texels as f64 * 0.618_033_988_75) as u64 | 1;
+    let at = |i: u64, channel: usize| {
+        let texel = (i * (channel as u64 + 1) * step + channel as u64 * texels / 3) % texels;
+        let (x, y) = (
+            texel % u64::from(image.width),
+            texel / u64::from(image.width),
+        );
+        image.texel(x as u32, y as u32)[channel]
+    };
+    (0..COUNT)
+        .map(|i| [0, 1, 2].map(|channel| at(i, channel)))
+        .collect()
 }
 
 /// Means of the first three channels of the clouds, as the manifest gives them.

@@ -2,7 +2,7 @@
 
 #[cfg(feature = "perez")]
 use crate::clear_sky::perez;
-use crate::clear_sky::{flares, galaxy, gradient, light, skybox, stars, sun};
+use crate::clear_sky::{flares, galaxy, ground, light, skybox, stars, sun, table};
 use crate::clouds::shared;
 use crate::device::context::Dome;
 use crate::device::map;
@@ -16,12 +16,13 @@ use crate::weather::{self, lightning, rain, rays};
 use crate::{frame, tonemap};
 
 /// What every dome needs.
-const COMMON: [Part; 14] = [
+const COMMON: [Part; 15] = [
     frame::PART,
     camera::PART,
     dome::PART,
     light::PART,
-    gradient::PART,
+    table::PART,
+    ground::PART,
     sun::PART,
     stars::PART,
     galaxy::PART,
@@ -42,7 +43,7 @@ const WEATHER: &[Part] = &[];
 /// What a sky model needs.
 fn sky_parts(sky: SkyModel) -> &'static [Part] {
     match sky {
-        SkyModel::Gradient => &[],
+        SkyModel::Table => &[],
         #[cfg(feature = "perez")]
         SkyModel::Perez => &[perez::PART],
     }

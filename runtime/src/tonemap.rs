@@ -27,10 +27,10 @@ pub const PART: Part = Part {
     constants: &[
         ("TONEMAP_NEUTRAL", Value::U32(Tonemap::Neutral as u32)),
         ("TONEMAP_AGX", Value::U32(Tonemap::Agx as u32)),
+        ("TONEMAP_AGX_PUNCHY", Value::U32(Tonemap::AgxPunchy as u32)),
         ("TONEMAP_FILMIC", Value::U32(Tonemap::Filmic as u32)),
         ("FILMIC_SHOULDER", Value::F32(filmic::SHOULDER)),
         ("FILMIC_KNEE", Value::F32(filmic::KNEE)),
-        ("NEUTRAL_REFLECTED", Value::F32(neutral::REFLECTED)),
         ("NEUTRAL_START", Value::F32(neutral::START)),
         ("NEUTRAL_FADING", Value::F32(neutral::FADING)),
         ("AGX_INSET", Value::F32(agx::INSET)),
@@ -46,6 +46,8 @@ pub const PART: Part = Part {
         ("AGX_X0", Value::F32(agx::SIGMOID[6])),
         ("AGX_GAMMA", Value::F32(agx::GAMMA)),
         ("AGX_BLACK", Value::F32(agx::BLACK)),
+        ("AGX_PUNCHY_POWER", Value::F32(agx::PUNCHY_POWER)),
+        ("AGX_PUNCHY_SATURATION", Value::F32(agx::PUNCHY_SATURATION)),
     ],
     structs: &[TonemapUniforms::WGSL],
     wgsl: concat!(
@@ -86,6 +88,7 @@ pub fn displayed(radiance: Vec3, tonemap: Tonemap) -> Vec3 {
     let colour = match tonemap {
         Tonemap::Neutral => neutral::neutral(radiance),
         Tonemap::Agx => agx::agx(radiance),
+        Tonemap::AgxPunchy => agx::punchy(radiance),
         Tonemap::Filmic => filmic::filmic(radiance),
         Tonemap::None => radiance,
     };

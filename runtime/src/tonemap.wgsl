@@ -11,6 +11,9 @@ fn tone_curve(exposed: vec3f) -> vec3f {
         case TONEMAP_AGX: {
             colour = tonemap_agx(radiance);
         }
+        case TONEMAP_AGX_PUNCHY: {
+            colour = tonemap_agx_punchy(radiance);
+        }
         case TONEMAP_FILMIC: {
             colour = tonemap_filmic(radiance);
         }

@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 use welkin_pack::mapping;
-use welkin_runtime::internals::clouds::shared::CORE;
 use welkin_runtime::internals::clouds::shared::CloudUniforms;
+use welkin_runtime::internals::clouds::shared::{ABEAM, CORE, RIM, SIDED};
 use welkin_runtime::internals::frame::Uniforms;
 
 use crate::dome::DomeHit;
@@ -35,10 +35,19 @@ impl Inputs<'_> {
     }
 }
 
+/// Share of sunlight that a cloud of an opacity sends back along a direction.
+pub fn facing(uniforms: &Uniforms, direction: Vec3, opacity: f32) -> f32 {
+    let cosine = direction.dot(uniforms.sky.sun_direction);
+    let thin = 1.0 - opacity;
+    let rim = RIM * thin * thin * cosine.max(0.0).powi(4);
+    let sided = ABEAM - SIDED * cosine + rim;
+    1.0 + (sided - 1.0) * uniforms.clouds.low_sun
+}
+
 /// Radiance of display-referred grey.
-pub fn light(clouds: &CloudUniforms, grey: Vec3) -> Vec3 {
+pub fn light(clouds: &CloudUniforms, grey: Vec3, facing: f32) -> Vec3 {
     let bright = CORE + (1.0 - CORE) * grey;
-    bright * (bright * clouds.sunlight + clouds.ambient)
+    bright * (bright * facing * clouds.sunlight + clouds.ambient)
 }
 
 /// Display-referred colour of a grey under the sunset tint.

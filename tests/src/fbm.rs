@@ -25,8 +25,10 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
         clouds::tint(uniforms, inputs.clouds, direction),
     );
     let colour = fbm.lit.lerp(fbm.shaded, shade) * tint;
+    let alpha = smoothstep(0.0, FULL, cover + rough);
+    let facing = clouds::facing(inputs.uniforms, direction, alpha);
     (
-        colour * (uniforms.sunlight + uniforms.ambient),
-        smoothstep(0.0, FULL, cover + rough) * clouds::clearness(uniforms, direction),
+        colour * (facing * uniforms.sunlight + uniforms.ambient),
+        alpha * clouds::clearness(uniforms, direction),
     )
 }

@@ -1,8 +1,8 @@
 //! Twin of lightning.wgsl.
 
 use glam::Vec3;
-use welkin_runtime::internals::clear_sky::light::luminance;
 use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::internals::geometry::math::luminance;
 use welkin_runtime::internals::weather::lightning::{CORE, SPREAD, THIN};
 
 use crate::dome;

@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use welkin_runtime::internals::clouds::lit::{
     AMBIENT, BLUR, BLUR_LEVEL, FINER, FINER_RELIEF, FINER_START, LEAST_STRETCH, LONGEST_WAY,
-    SHADED_BY_LAYER,
+    SHADED_BY_LAYER, SIDES,
 };
 use welkin_runtime::internals::clouds::lit::{LitLayerUniforms, LitUniforms};
 use welkin_runtime::params::LAYERS_AN_ITERATION;
@@ -150,12 +150,19 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     let level = level(distance, direction, narrowing);
     let through = through(lit, direction);
     let clouds = clouds(inputs, |_| (plane, level));
+    let open: f32 = clouds.iter().map(|cloud| 1.0 - cloud.opacity).product();
+    let mut lit = *lit;
+    let full = lit.light;
+    lit.light *= clouds::facing(inputs.uniforms, direction, 1.0 - open);
+    // The sides take the structure of the light of the sky.
+    let away = 0.5 - 0.5 * direction.dot(lit.light_direction);
+    lit.ambient += full * (SIDES * uniforms.low_sun * away);
     // From the lowest to the highest: each shows through those below it, and is shaded by those above it.
     let (mut radiance, mut clear) = (Vec3::ZERO, 1.0);
     for (index, cloud) in clouds.iter().enumerate() {
         let above = clouds[index + 1..].iter();
         let left: f32 = above.map(|c| 1.0 - SHADED_BY_LAYER * c.opacity).product();
-        let light = light(lit, through, cloud.falls, cloud.shade * left);
+        let light = light(&lit, through, cloud.falls, cloud.shade * left);
         radiance += light * (clear * cloud.opacity);
         clear *= 1.0 - cloud.opacity;
     }
@@ -176,6 +183,7 @@ mod tests {
     use welkin_runtime::{Camera, Method, SkyParams};
 
     use super::*;
+    use crate::texture::smoothstep;
     use crate::{lit_map, pack};
 
     /// An overcast's horizon is the twin's cloud where every channel has its mean, averaged around the horizon.
@@ -194,12 +202,23 @@ mod tests {
             let uniforms = facts.uniforms(&params, &camera, 0.0, 0.0);
             let lit = &uniforms.lit;
             let [falls, _, _, shade] = lit_map::texel(lit, &lit.layers[0], [0.5; 4]);
-            let count = 360;
-            let mean = (0..count)
+            // Layers above shade it, each by its mean opacity.
+            let above = &lit.layers[1..count(lit)];
+            let opacity = |layer: &LitLayerUniforms| {
+                let amounts = (0..4096).map(|i| (i as f32 + 0.5) / 4096.0 - layer.threshold);
+                let opacities = amounts.map(|a| smoothstep(0.0, 1.0, layer.steepness * a.max(0.0)));
+                layer.opacity * opacities.sum::<f32>() / 4096.0
+            };
+            let left = above
+                .iter()
+                .map(|layer| 1.0 - SHADED_BY_LAYER * opacity(layer));
+            let shade = shade * left.product::<f32>();
+            let steps = 360;
+            let mean = (0..steps)
                 .map(|i| {
-                    let (south, east) = (TAU * i as f32 / count as f32).sin_cos();
+                    let (south, east) = (TAU * i as f32 / steps as f32).sin_cos();
                     let through = through(lit, Vec3::new(east, 0.0, south));
-                    light(lit, through, falls, shade) / count as f32
+                    light(lit, through, falls, shade) / steps as f32
                 })
                 .sum::<Vec3>();
             let found = uniforms.sky.overcast;

@@ -54,7 +54,11 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     }
     let tint = clouds::tint(uniforms, inputs.clouds, direction);
     (
-        light(uniforms, tinted(uniforms, grey.clamp(0.0, 1.0), tint)),
+        light(
+            uniforms,
+            tinted(uniforms, grey.clamp(0.0, 1.0), tint),
+            clouds::facing(inputs.uniforms, direction, 1.0 - clear),
+        ),
         (1.0 - clear) * clouds::clearness(uniforms, direction),
     )
 }

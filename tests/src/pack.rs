@@ -159,20 +159,17 @@ fn build(noon_elevation_rad: Option<f32>, sources: Vec<Source>) -> Pack {
         recipe: String::new(),
         inputs: Vec::new(),
         noon_elevation_rad: noon_elevation_rad.unwrap_or(defaults.noon_elevation_rad),
+        aerosol_depths: defaults.aerosol_depths,
         noise: resolved().clouds.noise,
         detail: resolved().clouds.detail,
     };
     Pack::build(info, sources).expect("the changed pack is sound")
 }
 
-/// A pack whose sky is black and always night, without a galaxy: nothing but the stars is left.
+/// A pack whose sky is black, without a galaxy: nothing but the stars is left.
 pub fn stars_alone() -> Pack {
     changed_pack(None, |role, image| match role {
-        Role::Sky => image
-            .texels
-            .chunks_exact_mut(4)
-            .for_each(|texel| texel.copy_from_slice(&[0.0, 0.0, 0.0, 1.0])),
-        Role::Galaxy => image.texels.fill(0.0),
+        Role::Sky | Role::Galaxy => image.texels.fill(0.0),
         _ => {}
     })
 }

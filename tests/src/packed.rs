@@ -68,11 +68,17 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
         tint: clouds::tint(clouds, inputs.clouds, direction),
     };
     let (display, alpha) = shade(inputs.uniforms, samples);
-    let (mut radiance, mut alpha) = (light(clouds, display), soften(alpha, EDGE));
+    let facing = |opacity| clouds::facing(inputs.uniforms, direction, opacity);
+    let mut radiance = light(clouds, display, facing(alpha));
+    let mut alpha = soften(alpha, EDGE);
     if packed.upper_layer > 0.0 {
         let veil = veil(inputs, hit.plane, level);
         let over = alpha + veil * (1.0 - alpha);
-        let white = light(clouds, Vec3::ONE.lerp(clouds.tint, samples.tint));
+        let white = light(
+            clouds,
+            Vec3::ONE.lerp(clouds.tint, samples.tint),
+            facing(0.0),
+        );
         radiance = white.lerp(radiance, alpha / over.max(1e-4));
         alpha = over;
     }
@@ -96,7 +102,8 @@ pub fn upper_layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f
     let hit = dome::intersect(direction);
     let veil = veil(inputs, hit.plane, clouds::level(&hit, narrowing));
     let tint = clouds::tint(clouds, inputs.clouds, direction);
-    let white = light(clouds, Vec3::ONE.lerp(clouds.tint, tint));
+    let facing = clouds::facing(inputs.uniforms, direction, 0.0);
+    let white = light(clouds, Vec3::ONE.lerp(clouds.tint, tint), facing);
     (white, veil * clouds::clearness(clouds, direction))
 }
 
@@ -187,7 +194,7 @@ mod tests {
                 tint: 0.0,
             };
             let (grey, _) = shade(&uniforms, samples);
-            let apart = light(&uniforms.clouds, grey) - uniforms.sky.overcast;
+            let apart = light(&uniforms.clouds, grey, 1.0) - uniforms.sky.overcast;
             assert!(
                 apart.abs().max_element() < 1e-5,
                 "{time} {density}: {apart}"

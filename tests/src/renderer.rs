@@ -25,11 +25,12 @@ pub struct Twin<'a> {
     facts: PackData,
     clouds: Texture,
     galaxy: Texture,
-    sky: Texture,
     sun: Texture,
     flares: Texture,
     layers: Vec<Texture>,
     skybox: Option<Skybox>,
+    /// Step of the target's encoding.
+    step: f32,
 }
 
 /// A frame of a twin: everything that its pixels are computed from.
@@ -39,6 +40,8 @@ pub struct Frame<'a> {
     pub method: Method,
     /// The frame's constants.
     pub uniforms: Uniforms,
+    /// The clear sky of its moment.
+    pub sky: Texture,
     /// The layers of the map of the method, if it draws one.
     pub map: Vec<Texture>,
     /// See [`Inputs::nudges`].
@@ -60,21 +63,33 @@ impl<'a> Twin<'a> {
             facts: PackData::new(pack).expect("the pack has every role"),
             clouds: texture(Role::Clouds),
             galaxy: texture(Role::Galaxy),
-            sky: texture(Role::Sky),
             sun: texture(Role::Sun),
             flares: texture(Role::Flares),
             layers: lit_map::kinds(pack),
             skybox: Skybox::new(pack),
+            step: 0.0,
+        }
+    }
+
+    /// Reads every texture of a pack, for a target of 8 bits.
+    ///
+    /// # Panics
+    /// If the pack lacks one.
+    pub fn for_display(pack: &'a Pack) -> Twin<'a> {
+        Twin {
+            step: 1.0 / 255.0,
+            ..Twin::new(pack)
         }
     }
 
     /// A frame whose map is yet to be given, if its method has one.
     pub fn frame_without_map(&self, params: &SkyParams, view: &Camera, seconds: f64) -> Frame<'_> {
-        let uniforms = self.facts.uniforms(params, view, seconds, 0.0);
+        let uniforms = self.facts.uniforms(params, view, seconds, self.step);
         Frame {
             twin: self,
             method: params.method,
             uniforms,
+            sky: sky::texture(&self.facts, params),
             map: Vec::new(),
             nudges: vec![0.0; methods::reads(params.method, &uniforms)],
             states: match params.method {
@@ -141,9 +156,9 @@ impl Frame<'_> {
         reads
     }
 
-    /// What reads are off by where each texture unit's is by one step of 8-bit filtering.
+    /// What reads are off by where each texture unit mixes across, along and between levels, and rounds to a step of 8 bits each time.
     pub fn filter_steps(&self) -> Vec<f32> {
-        vec![FILTER_STEP; self.nudges.len()]
+        vec![1.5 * FILTER_STEP; self.nudges.len()]
     }
 
     /// Radiance of every pixel, row by row from the top, without the flare.
@@ -175,7 +190,7 @@ impl Frame<'_> {
     }
 
     /// By how much each pixel of `picture` may change if every read of clouds, or of the map, is off by up to `off` in its
-    /// place of the order of reads: the changes by each read alone, added up.
+    /// place of the order of reads: the changes by each read alone, added up, or those by all of them together if they are larger.
     pub fn worth_of_reads(
         &mut self,
         off: &[f32],
@@ -183,6 +198,18 @@ impl Frame<'_> {
     ) -> Vec<Vec3> {
         let defaults = picture(self);
         let mut worth = vec![Vec3::ZERO; defaults.len()];
+        let mut together = worth.clone();
+        for sign in [-1.0, 1.0] {
+            for (nudge, off) in self.nudges.iter_mut().zip(off) {
+                *nudge = sign * off;
+            }
+            let changed = picture(self);
+            let changes = changed.iter().zip(&defaults).map(|(a, b)| (*a - *b).abs());
+            for (together, change) in together.iter_mut().zip(changes) {
+                *together = together.max(change);
+            }
+            self.nudges.fill(0.0);
+        }
         for (read, &off) in off.iter().enumerate().filter(|(_, off)| **off > 0.0) {
             let changed = [-off, off].map(|nudge| {
                 self.nudges[read] = nudge;
@@ -195,7 +222,32 @@ impl Frame<'_> {
                 *worth += less.max(more);
             }
         }
+        for (worth, together) in worth.iter_mut().zip(together) {
+            *worth = worth.max(together);
+        }
         worth
+    }
+
+    /// By how much each pixel may change if the read of the sun's texture is off by up to a step of 8-bit filtering, in value and in place.
+    pub fn worth_of_sun(&self) -> Vec<Vec3> {
+        let sun = &self.uniforms.sun;
+        self.pixels(|pixel| {
+            let ray = camera::ray_of(&self.uniforms.camera, pixel);
+            let direction = ray / ray.length();
+            let place = direction
+                .dot(sun.right)
+                .abs()
+                .max(direction.dot(sun.up).abs());
+            let ahead = direction.dot(sun.direction) > 0.0 && place < 1.1;
+            if sun.is_shown == 0.0 || !ahead {
+                return Vec3::ZERO;
+            }
+            let open = match direction.y > 0.0 {
+                true => 1.0 - self.clouds(direction, ray.length()).1,
+                false => 1.0,
+            };
+            sun.disc * (2.0 * FILTER_STEP * open)
+        })
     }
 
     /// What the flare adds to every pixel.
@@ -254,7 +306,7 @@ impl Frame<'_> {
     fn pixel_behind(&self, pixel: Vec2) -> Vec3 {
         let (twin, uniforms) = (self.twin, &self.uniforms);
         let direction = camera::ray_of(&uniforms.camera, pixel).normalize();
-        let mut radiance = sky::radiance(uniforms, &twin.sky, direction);
+        let mut radiance = sky::radiance(uniforms, &self.sky, &twin.clouds, direction);
         if uniforms.sky.night > 0.0 && direction.y > 0.0 {
             let galaxy =
                 galaxy::brightness(&uniforms.galaxy, &twin.galaxy, &twin.clouds, direction);

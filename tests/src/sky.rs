@@ -1,28 +1,73 @@
-//! Twin of clear_sky/gradient.wgsl.
+//! Twin of clear_sky/table.wgsl and clear_sky/ground.wgsl.
 
-use glam::{Vec3, Vec3Swizzles};
-use welkin_runtime::internals::clear_sky::gradient::{GROUND_FALL, GROUND_FLOOR};
+use glam::{Vec2, Vec3, Vec3Swizzles};
+use welkin_pack::air::AUREOLE_LOBES;
+use welkin_pack::role::Wrap;
+use welkin_runtime::SkyParams;
+use welkin_runtime::internals::clear_sky::ground::{BACKSCATTER, MOTTLING};
+use welkin_runtime::internals::clear_sky::table::AUREOLE_ROWS;
 use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::internals::pack_data::PackData;
 
 use crate::perez;
 use crate::texture::Texture;
 
-/// Radiance of the clear sky along a unit direction.
-pub fn radiance(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3 {
+/// The picture that the shader reads the clear sky of a moment from.
+pub fn texture(data: &PackData, params: &SkyParams) -> Texture {
+    let view = data.lit_sky(&params.clamped()).view;
+    Texture::from_levels(vec![view.image()], Wrap::Clamp)
+}
+
+/// Radiance of the clear sky along a unit direction, or of the ground, whose pattern is in the texture of the clouds.
+pub fn radiance(uniforms: &Uniforms, texture: &Texture, clouds: &Texture, direction: Vec3) -> Vec3 {
     let sky = &uniforms.sky;
-    let v = sky.horizon_v + sky.elevation_v * libm::sqrtf(direction.y.max(0.0));
-    let from_sun = direction.dot(sky.sun_direction) - 1.0;
-    // The narrow lobe is the wide one's twelfth power.
-    let lobe = |lobe: Vec3, power: f32| lobe * libm::exp2f(power * sky.wide_sharpness * from_sun);
-    let side = 0.5 + 0.5 * direction.xz().dot(uniforms.clouds.sun_azimuth);
-    let fade = libm::exp2f(-sky.band_sharpness * direction.y.abs());
-    let band = sky.band * (side * side * fade);
-    let light = Vec3::from_slice(&texture.sample([sky.time_u, v], 0.0))
-        + lobe(sky.wide, 1.0)
-        + lobe(sky.narrow, 12.0)
-        + band;
-    let light = perez::light(&uniforms.perez, direction, light);
-    let light = light.lerp(sky.overcast, sky.overcast_weight);
-    let below = (-direction.y).max(0.0);
-    light * (GROUND_FLOOR + (1.0 - GROUND_FLOOR) / (1.0 + GROUND_FALL * below))
+    let light = perez::light(
+        &uniforms.perez,
+        direction,
+        table(uniforms, texture, direction),
+    );
+    let low = 1.0 - direction.y.clamp(0.0, 1.0);
+    let slit = 1.0 + sky.slit * low.powi(6);
+    let light = light.lerp(sky.overcast * slit, sky.overcast_weight);
+    if direction.y >= 0.0 {
+        return light;
+    }
+    let ground = &uniforms.ground;
+    let away = 1.0 / (-direction.y).max(1e-6);
+    let uv = ground.place + direction.xz() * (away * ground.height_tiles);
+    let noise = clouds.sample(uv.to_array(), ground.lod + 2.0 * libm::log2f(away))[2];
+    let facing = 1.0 - BACKSCATTER * direction.dot(sky.sun_direction);
+    let lit = ground.skylit + ground.sunlit * (facing / (ground.sun_sin - direction.y));
+    let radiance = lit * (1.0 + MOTTLING * (noise - ground.noise_mean));
+    let through = Vec3::from((-ground.depth * away).to_array().map(libm::exp2f));
+    light + (radiance - light) * through
+}
+
+fn table(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3 {
+    let sky = &uniforms.sky;
+    let up = direction.y.clamp(0.0, 1.0);
+    let flat = direction.xz().length().max(1e-6);
+    let azimuth_cos = direction.xz().dot(uniforms.clouds.sun_azimuth) / flat;
+    let place = Vec2::new(
+        (0.5 - 0.5 * azimuth_cos).max(0.0).sqrt(),
+        (1.0 - (1.0 - up).sqrt()).sqrt(),
+    );
+    let uv = sky.start + sky.span * place;
+    let texel = texture.sample(uv.to_array(), 0.0);
+    let row = place.y * (AUREOLE_ROWS - 1) as f32;
+    let below = (row as usize).min(AUREOLE_ROWS - 2);
+    let [low, high] = [0, 1].map(|i| sky.aureole[below + i].truncate());
+    let colour = low.lerp(high, row - below as f32);
+    let cosine = direction.dot(sky.sun_direction).min(1.0);
+    Vec3::from_slice(&texel[..3]) + colour * (texel[3] * aureole(cosine))
+}
+
+/// Henyey and Greenstein's lobes, in 64 bits.
+fn aureole(cosine: f32) -> f32 {
+    let lobe = |[weight, g]: [f32; 2]| {
+        let (weight, g) = (f64::from(weight), f64::from(g));
+        let base = 1.0 + g * g - 2.0 * g * f64::from(cosine);
+        weight * (1.0 - g * g) / (4.0 * std::f64::consts::PI * base * libm::sqrt(base))
+    };
+    AUREOLE_LOBES.map(lobe).iter().sum::<f64>() as f32
 }

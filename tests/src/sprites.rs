@@ -167,7 +167,7 @@ fn corner(
     let clear = clearness(own, inputs.view.height_m, place) * rim;
     let flash = (place - own.flash_position) * own.flash_per_m;
     let flash = own.flash * libm::exp2f(-flash.length_squared());
-    let behind = sky::radiance(uniforms, inputs.sky, direction);
+    let behind = sky::radiance(uniforms, inputs.sky, inputs.clouds, direction);
     Corner {
         light: (light + flash) * clear + behind * (1.0 - clear),
         relief: light * clear * own.relief,

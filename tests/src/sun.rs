@@ -1,24 +1,26 @@
 //! Twin of sun.wgsl.
 
 use glam::Vec3;
-use welkin_runtime::internals::clear_sky::sun::HORIZON;
+use welkin_runtime::internals::clear_sky::sun::{GLARE_CORE, HORIZON};
 use welkin_runtime::internals::frame::Uniforms;
 
 use crate::texture::{Texture, smoothstep};
 
-/// Radiance of the sun's square along a unit direction.
+/// Radiance of the sun's square and of its glare along a unit direction.
 pub fn radiance(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3 {
     let sun = &uniforms.sun;
-    let place = [direction.dot(sun.right), -direction.dot(sun.up)];
-    let inside = |place: [f32; 2]| place[0].abs().max(place[1].abs()) < 1.0;
-    if sun.is_shown == 0.0 || direction.dot(sun.direction) <= 0.0 || !inside(place) {
+    if sun.is_shown == 0.0 {
         return Vec3::ZERO;
     }
-    let uv = |place: [f32; 2]| place.map(|p| 0.5 + 0.5 * p);
-    let mut radiance = sun.glow * texture.sample(uv(place), sun.glow_lod)[1];
-    let inner = place.map(|p| p * sun.glow_to_disc);
-    if inside(inner) {
-        radiance += sun.disc * texture.sample(uv(inner), sun.disc_lod)[0];
+    let cosine = direction.dot(sun.direction);
+    let away = 2.0 - 2.0 * f64::from(cosine.min(1.0)) + f64::from(GLARE_CORE);
+    let glare = sun.glare * libm::pow(away, -1.5) as f32;
+    let place = [direction.dot(sun.right), -direction.dot(sun.up)];
+    let inside = |place: [f32; 2]| place[0].abs().max(place[1].abs()) < 1.0;
+    if cosine <= 0.0 || !inside(place) {
+        return glare;
     }
-    radiance * smoothstep(-HORIZON, HORIZON, direction.y)
+    let uv = place.map(|p| 0.5 + 0.5 * p);
+    let disc = texture.sample(uv, sun.lod)[0];
+    glare + sun.disc * (disc * smoothstep(-HORIZON, HORIZON, direction.y))
 }

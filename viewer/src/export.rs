@@ -75,6 +75,11 @@ impl<'a> Environment<'a> {
         cubemap::draw(&view.camera, side, |camera| self.radiance(view, camera))
     }
 
+    /// The view's parameters with the exposure that a picture of the map is shown by.
+    pub fn exposed(&self, view: &View) -> SkyParams {
+        self.stage.exposed(view)
+    }
+
     /// What a camera sees, row by row.
     fn radiance(&mut self, view: &View, camera: &Camera) -> Result<Vec<[f16; 4]>, GpuError> {
         let bytes = self.stage.draw_bytes(&View {

@@ -68,6 +68,11 @@ impl<'a> Stage<'a> {
         self.sky.reset_history();
     }
 
+    /// The view's parameters with the exposure that is drawn with: [`Sky::exposed`].
+    pub fn exposed(&self, view: &View) -> SkyParams {
+        self.sky.exposed(&view.params, view.seconds)
+    }
+
     /// Draws a frame.
     ///
     /// # Errors

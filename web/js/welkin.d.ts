@@ -40,19 +40,22 @@ export type SettingName =
   | 'k1'
   | 'k2'
   | 'm'
-  | 'moon'
   | 'lit-interval'
   | 'behind'
   | 'behind-cover'
   | 'sight'
   | 'ring'
   | 'billboards'
+  | 'hours'
   | 'formation'
   | 'sky'
+  | 'haze'
+  | 'ground'
   | 'turbidity'
   | 'cie'
   | 'perez'
   | 'sun'
+  | 'moon'
   | 'stars'
   | 'flare'
   | 'starburst'
@@ -60,6 +63,7 @@ export type SettingName =
   | 'rays'
   | 'rain'
   | 'exposure-ev'
+  | 'auto-exposure'
   | 'tonemap'
   | 'flashes'
   | 'at'
@@ -119,8 +123,6 @@ export interface Settings {
   k2?: number | string;
   /** How narrow the shine around the sun is and how fast shade deepens. From 0.5 to 16. */
   m?: number | string;
-  /** Strength of the full moon's light on clouds. From 0 to 1. */
-  moon?: number | string;
   /** Seconds in which clouds form anew. From 1 to 86400 seconds. */
   'lit-interval'?: number | string;
   /** Method of the dome behind the sprites; sprites is a clear one, with the thin upper layer alone. */
@@ -133,18 +135,26 @@ export interface Settings {
   ring?: number | string;
   /** Distance beyond which a cloud is one billboard, in metres. From 2000 to 60000. */
   billboards?: number | string;
+  /** Whether sprites are lit by the field's table of hours, as painted, not by the sky. */
+  hours?: boolean | 'true' | 'false';
   /** The most that clouds have formed, 0 (nothing) to 1 (whole). */
   formation?: number | string;
   /** How the clear sky is computed. */
-  sky?: 'gradient' | 'perez';
+  sky?: 'table' | 'perez';
+  /** Haze in the air: 0 as the pack's clear air, 1 as its hazy air. */
+  haze?: number | string;
+  /** Share of light that the ground reflects, linear, each 0 to 1. */
+  ground?: Value;
   /** Haze in the air, 1.7 (clear) to 10 (thick). */
   turbidity?: number | string;
   /** Luminance of a standard sky of ISO 15469, 1 (overcast) to 12 (clear) to 15. */
   cie?: Value;
   /** Luminance by five numbers of one's own. */
   perez?: Value;
-  /** The sun's disc and glow. */
+  /** The sun's disc. */
   sun?: boolean | 'true' | 'false';
+  /** Strength of the full moon's light. From 0 to 1. */
+  moon?: number | string;
   /** Stars and galaxy. */
   stars?: boolean | 'true' | 'false';
   /** Strength of the lens flare, 0 (off) to 1. */
@@ -159,8 +169,10 @@ export interface Settings {
   rain?: number | string;
   /** Exposure of the picture in stops: each is twice as bright. From -16 to 16. */
   'exposure-ev'?: number | string;
+  /** Whether the exposure follows the light of the sky, as a camera's does. */
+  'auto-exposure'?: boolean | 'true' | 'false';
   /** How radiance becomes colour on a display. */
-  tonemap?: 'neutral' | 'agx' | 'filmic' | 'none';
+  tonemap?: 'neutral' | 'agx' | 'agx-punchy' | 'filmic' | 'none';
   /** Flashes of lightning a minute. From 0 to 30. */
   flashes?: number | string;
   /** Moment of the animation, in seconds. */

@@ -197,9 +197,7 @@ type Work<T> = fn(&Resolved, Option<&Path>, OnProgress) -> Result<T, BakeError>;
 fn add_stored(folder: &Folder, pack: &Pack) -> Result<()> {
     for role in Role::ALL {
         if let Some(texture) = pack.texture(role) {
-            for layer in 0..texture.layers {
-                side::add(folder, role, layer, &texture.image(0, layer), Kind::Png)?;
-            }
+            side::add(folder, role, &side::images(texture), Kind::Png)?;
         }
     }
     Ok(())
@@ -209,9 +207,7 @@ fn add_linear(folder: &Folder, resolved: &Resolved, base: Option<&Path>) -> Resu
     // It makes again what the pack was made from, so there is nothing new to tell.
     let sources = unless_interrupted(resolved, base, |_| (), welkin_baker::sources)?;
     for source in &sources {
-        for (layer, image) in (0..).zip(&source.images) {
-            side::add(folder, source.role, layer, image, Kind::Exr)?;
-        }
+        side::add(folder, source.role, &source.images, Kind::Exr)?;
     }
     Ok(())
 }

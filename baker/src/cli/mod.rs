@@ -16,6 +16,7 @@ mod picture;
 mod preview;
 mod sheet;
 mod side;
+mod sky;
 mod unpack;
 
 use std::process::ExitCode;

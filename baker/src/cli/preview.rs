@@ -12,7 +12,7 @@ use welkin_pack::texture::unorm8;
 use welkin_pack::{Image, Manifest, Pack, Role, Texture};
 
 use super::sheet::{self, PANEL, Panel, Section};
-use super::{file, input, interrupt, picture};
+use super::{file, input, interrupt, picture, sky};
 
 /// Textures that are read texel by texel are shown in part, each texel at least this many pixels large.
 const TEXEL_PIXELS: u32 = 2;
@@ -72,8 +72,10 @@ fn sections(pack: &Pack, entry: &TextureEntry) -> Vec<Section> {
     let Some(texture) = pack.texture(entry.role) else {
         return Vec::new();
     };
-    if entry.role == Role::Skybox {
-        return skybox(texture, entry);
+    match entry.role {
+        Role::Skybox => return skybox(texture, entry),
+        Role::Sky => return clear_sky(texture, entry),
+        _ => {}
     }
     (0..texture.layers)
         .map(|layer| section(&texture.image(0, layer), entry, layer))
@@ -82,12 +84,9 @@ fn sections(pack: &Pack, entry: &TextureEntry) -> Vec<Section> {
 
 fn section(image: &Image, entry: &TextureEntry, layer: u32) -> Section {
     let channels = entry.channels.iter().enumerate();
-    let mut panels: Vec<Panel> = channels
+    let panels: Vec<Panel> = channels
         .map(|(i, channel)| channel_panel(entry, image, i, channel))
         .collect();
-    if entry.role == Role::Sky {
-        panels.insert(0, sky_panel(image));
-    }
     let layer = entry.role.layer_name(layer);
     let layer = layer.map_or(String::new(), |name| format!(" {name}"));
     Section {
@@ -123,9 +122,7 @@ fn skybox(texture: &Texture, entry: &TextureEntry) -> Vec<Section> {
             .collect(),
     };
     vec![
-        section("colour", &|image| {
-            in_colour(image, |x, y| image.texel(x, y))
-        }),
+        section("colour", &in_colour),
         section("cover", &|image| {
             RgbImage::from_fn(image.width, image.height, |x, y| {
                 Rgb([unorm8(image.texel(x, y)[3]); 3])
@@ -134,10 +131,46 @@ fn skybox(texture: &Texture, entry: &TextureEntry) -> Vec<Section> {
     ]
 }
 
-/// Radiance as a colour picture; `texel` says where a pixel's channels are.
-pub fn in_colour<'a>(image: &Image, texel: impl Fn(u32, u32) -> &'a [f32]) -> RgbImage {
+/// The clear sky at some hours in colour, and every layer of each channel.
+fn clear_sky(texture: &Texture, entry: &TextureEntry) -> Vec<Section> {
+    let look = |look: sky::Look| {
+        let shown = in_colour(&look.image);
+        Panel {
+            title: format!("sun {:.0} deg", look.sun_deg),
+            note: "sun in the middle, zenith on top".to_string(),
+            width: shown.width(),
+            height: shown.height(),
+            pixels: shown.pixels().map(|p| p.0).collect(),
+        }
+    };
+    let channel = |(index, channel): (usize, &Channel)| {
+        let sheet = sky::sheet(texture, index);
+        Panel {
+            note: "suns across, zenith on top".to_string(),
+            ..channel_panel(entry, &sheet, 0, channel)
+        }
+    };
+    let section = |what: &str, panels| Section {
+        title: format!("{} {what}", entry.role.name()),
+        note: picture::size_of(entry),
+        panels,
+    };
+    vec![
+        section(
+            "colour",
+            sky::looks(texture).into_iter().map(look).collect(),
+        ),
+        section(
+            "layers",
+            entry.channels.iter().enumerate().map(channel).collect(),
+        ),
+    ]
+}
+
+/// Radiance as a colour picture.
+pub fn in_colour(image: &Image) -> RgbImage {
     RgbImage::from_fn(image.width, image.height, |x, y| {
-        let texel = texel(x, y);
+        let texel = image.texel(x, y);
         Rgb([texel[0], texel[1], texel[2]].map(display))
     })
 }
@@ -204,20 +237,6 @@ fn magnified_corner(grey: &GrayImage) -> (GrayImage, String) {
     let [shown_width, shown_height] = [width, height].map(|side| side * pixels);
     let shown = imageops::resize(&corner, shown_width, shown_height, FilterType::Nearest);
     (shown, format!(" ({width}x{height})"))
-}
-
-/// The sky's radiance as a colour picture: midnight to midnight from left to right, zenith on top.
-fn sky_panel(image: &Image) -> Panel {
-    let picture = in_colour(image, |x, y| image.texel(x, image.height - 1 - y));
-    let [width, height] = [PANEL, (PANEL * image.height / image.width).clamp(1, PANEL)];
-    let shown = imageops::resize(&picture, width, height, FilterType::Triangle);
-    Panel {
-        title: "colour".to_string(),
-        note: "time across, zenith on top".to_string(),
-        width,
-        height,
-        pixels: shown.pixels().map(|p| p.0).collect(),
-    }
 }
 
 /// Radiance to an sRGB byte: an exponential shoulder, then the curve of IEC 61966-2-1.

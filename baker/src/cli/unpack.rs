@@ -32,9 +32,7 @@ pub fn run(args: &UnpackArgs) -> Result<()> {
             Format::Rgba16Float => Kind::Exr,
             Format::R8Unorm | Format::Rg8Unorm | Format::Rgba8Unorm => Kind::Png,
         };
-        for layer in 0..texture.layers {
-            side::add(&folder, role, layer, &texture.image(0, layer), kind)?;
-        }
+        side::add(&folder, role, &side::images(texture), kind)?;
     }
     output::leftovers(folder.publish()?);
     Ok(())

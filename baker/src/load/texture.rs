@@ -29,7 +29,8 @@ const EXR: &[u8] = b"\x76\x2f\x31\x01";
 ///
 /// Values are taken as they are stored, without any gamma: 0..1 in a PNG. Channels are red, green, blue and alpha in the order
 /// of the role; a role of two channels also takes grey and alpha, one of one channel takes grey. An OpenEXR file may instead name
-/// its channels as the role does. Layers and faces lie one below the other, each as high as wide. A KTX2 file is taken as it is.
+/// its channels as the role does. Layers and faces lie one below the other, each with the proportions that the role has by default:
+/// as high as wide, but for `sky`, where they are twice as high. A KTX2 file is taken as it is.
 ///
 /// PNG values of 16 bits are rounded to bytes; floats become half floats where the role has them, else bytes.
 ///
@@ -261,11 +262,12 @@ impl Wanted<'_> {
     fn texture(self, image: Image, format: Format) -> Result<Texture, BakeError> {
         let spec = self.spec();
         let (width, rows) = (image.width, image.height);
+        let height = width * spec.size[1] / spec.size[0];
         let layers = match spec.shape {
             Shape::D2 => 1,
-            Shape::Array | Shape::Cube if rows.is_multiple_of(width) => rows / width,
+            Shape::Array | Shape::Cube if rows.is_multiple_of(height) => rows / height,
             Shape::Array | Shape::Cube => {
-                let expected = format!("layers of {width}x{width}, one below the other");
+                let expected = format!("layers of {width}x{height}, one below the other");
                 return Err(unfit_size(self.file, [width, rows], expected));
             }
         };

@@ -31,7 +31,7 @@ tables! {
     Gradient { power }
     Stars { size, count, magnitudes, brightest }
     Galaxy { size, tilt_deg, azimuth_deg, dust }
-    Sky { width, height, haze }
+    Sky { width, height, suns, haze, most_haze }
     Sun { size, noon_elevation_deg }
     Fbm { size, octaves, cells }
     Flares { size }

@@ -1,41 +1,22 @@
 //! Light in a spherical atmosphere of air, haze and ozone, seen from the ground.
 //!
 //! Lengths are kilometres, coefficients per kilometre; radiance is a share of the sun's irradiance above
-//! the atmosphere, at each wavelength of `spectrum.rs`.
+//! the atmosphere, at each wavelength of [`welkin_pack::air`].
 //!
 //! E. Bruneton, F. Neyret, "Precomputed Atmospheric Scattering", EGSR 2008; S. Hillaire, "A Scalable and
 //! Production Ready Sky and Atmosphere Rendering Technique", EGSR 2020.
 
 use std::f32::consts::PI;
 
+use welkin_pack::air::{
+    AEROSOL_ALBEDO, AEROSOL_RAYLEIGH, AEROSOL_SCALE_KM, COUNT, MOLECULE_SCALE_KM, OZONE_KM,
+    Spectrum, aerosol, ozone, rayleigh, rayleigh_phase,
+};
+
 use super::geometry::{
     GROUND_KM, along, cosine, distance_to_ground, distance_to_top, horizon_sin, sun_above_horizon,
 };
-use super::spectrum::{self, COUNT, Spectrum};
 use super::table::Table;
-
-/// Scale height of air, km (Hillaire 2020, table 1).
-const AIR_SCALE_KM: f32 = 8.0;
-
-/// Scattering and absorption of haze at the ground at every wavelength, 1/km, and scale height, km
-/// (Hillaire 2020, table 1).
-const HAZE_SCATTERING: f32 = 3.996e-3;
-const HAZE_ABSORPTION: f32 = 4.40e-3;
-const HAZE_SCALE_KM: f32 = 1.2;
-
-/// Asymmetry of the haze's phase function (Hillaire 2020, table 1).
-const HAZE_ASYMMETRY: f32 = 0.8;
-
-/// The haze's phase function is held constant within 40 degrees of the sun (a cosine): the glow there is
-/// drawn by the runtime, which knows where the sun is.
-const GLOW_COS: f32 = 0.766;
-
-/// Middle and half width of the ozone layer, a tent, in km (Hillaire 2020, table 1).
-const OZONE_MIDDLE_KM: f32 = 25.0;
-const OZONE_HALF_KM: f32 = 15.0;
-
-/// Reflectance of the ground (Hillaire 2020, section 4).
-const GROUND_ALBEDO: f32 = 0.3;
 
 /// Steps along a line of sight, and along a ray to the sun.
 const VIEW_STEPS: usize = 28;
@@ -46,11 +27,26 @@ const MULTIPLE_RINGS: usize = 8;
 const MULTIPLE_TURNS: usize = 4;
 const MULTIPLE_STEPS: usize = 12;
 
+/// What of the air is free to choose.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Settings {
+    /// Optical depth of the aerosol to the zenith at 550 nm.
+    pub aerosol_depth: f32,
+    /// Share of light that the ground reflects.
+    pub ground_albedo: f32,
+    /// Ozone, as a multiple of 300 Dobson units.
+    pub ozone: f32,
+}
+
 /// An atmosphere with its tables of sunlight.
 pub(super) struct Atmosphere {
+    /// Scattering at the ground.
     air: Spectrum,
+    /// Absorption in the densest part of the layer.
     ozone: Spectrum,
-    haze: f32,
+    /// Extinction at the ground.
+    haze: Spectrum,
+    ground_albedo: f32,
     /// Share of the sun's light that reaches a place.
     transmittance: Table,
     /// Radiance of light scattered more than once, before the local coefficient of scattering.
@@ -60,7 +56,7 @@ pub(super) struct Atmosphere {
 /// What a kilometre of the atmosphere does.
 struct Medium {
     air: Spectrum,
-    haze: f32,
+    haze: Spectrum,
     extinction: Spectrum,
 }
 
@@ -76,13 +72,22 @@ struct Step {
     haze: Spectrum,
 }
 
+/// Light along a line of sight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Seen {
+    /// Radiance without the aureole.
+    pub radiance: Spectrum,
+    /// What the aureole's phase function is multiplied by.
+    pub aureole: Spectrum,
+}
+
 impl Atmosphere {
-    /// `haze` multiplies the aerosol.
-    pub(super) fn new(haze: f32) -> Atmosphere {
+    pub(super) fn new(settings: Settings) -> Atmosphere {
         let mut atmosphere = Atmosphere {
-            air: spectrum::air(),
-            ozone: spectrum::ozone(),
-            haze,
+            air: rayleigh(),
+            ozone: ozone().map(|o| o * settings.ozone),
+            haze: aerosol(settings.aerosol_depth).map(|depth| depth / AEROSOL_SCALE_KM),
+            ground_albedo: settings.ground_albedo,
             transmittance: Table::empty(),
             multiple: Table::empty(),
         };
@@ -106,7 +111,7 @@ impl Atmosphere {
                 Step {
                     distance,
                     air: each(|c| spread[c] * medium.air[c]),
-                    haze: spread.map(|s| s * medium.haze),
+                    haze: each(|c| spread[c] * medium.haze[c]),
                 }
             },
         );
@@ -116,47 +121,42 @@ impl Atmosphere {
         }
     }
 
-    /// Radiance along a line, with the sun at the sine of an elevation, averaged over azimuths given as
-    /// (cosine of the angle from the sun's azimuth, weight).
-    pub(super) fn radiance(&self, line: &Line, sun_sin: f32, azimuths: &[(f32, f32)]) -> Spectrum {
-        let mut sum = [0.0; COUNT];
-        for &(azimuth_cos, weight) in azimuths {
-            // The sun's part along the line's horizontal direction, and upwards.
-            let sun = [cosine(sun_sin) * azimuth_cos, sun_sin];
-            let between = line.view[0] * sun[0] + line.view[1] * sun[1];
-            let (air_phase, haze_phase) = (
-                air_phase(between) * weight,
-                haze_phase(between.min(GLOW_COS)) * weight,
-            );
-            for step in &line.steps {
-                let (altitude, sun_here) = along(GROUND_KM, line.view, step.distance, sun);
-                let direct = self.transmittance.read(altitude, sun_here);
-                let more = self.multiple.read(altitude, sun_here);
-                for c in 0..COUNT {
-                    sum[c] += direct[c] * (step.air[c] * air_phase + step.haze[c] * haze_phase)
-                        + more[c] * weight * (step.air[c] + step.haze[c]);
-                }
+    /// Light along a line, with the sun at the sine of an elevation and at an azimuth, by its cosine, from the line's.
+    pub(super) fn seen(&self, line: &Line, sun_sin: f32, azimuth_cos: f32) -> Seen {
+        let (mut radiance, mut aureole) = ([0.0; COUNT], [0.0; COUNT]);
+        // The sun's part along the line's horizontal direction, and upwards.
+        let sun = [cosine(sun_sin) * azimuth_cos, sun_sin];
+        let phase = rayleigh_phase(line.view[0] * sun[0] + line.view[1] * sun[1]);
+        for step in &line.steps {
+            let (altitude, sun_here) = along(GROUND_KM, line.view, step.distance, sun);
+            let direct = self.transmittance.read(altitude, sun_here);
+            let more = self.multiple.read(altitude, sun_here);
+            for c in 0..COUNT {
+                radiance[c] += direct[c] * phase * (step.air[c] + AEROSOL_RAYLEIGH * step.haze[c])
+                    + more[c] * (step.air[c] + step.haze[c]);
+                aureole[c] += direct[c] * step.haze[c];
             }
         }
-        sum
+        Seen { radiance, aureole }
     }
 
     fn medium(&self, altitude: f32) -> Medium {
-        let air_share = libm::expf(-altitude / AIR_SCALE_KM);
-        let haze_share = self.haze * libm::expf(-altitude / HAZE_SCALE_KM);
-        let ozone_share = (1.0 - (altitude - OZONE_MIDDLE_KM).abs() / OZONE_HALF_KM).max(0.0);
-        let haze_extinction = (HAZE_SCATTERING + HAZE_ABSORPTION) * haze_share;
+        let air_share = libm::expf(-altitude / MOLECULE_SCALE_KM);
+        let haze_share = libm::expf(-altitude / AEROSOL_SCALE_KM);
+        let [middle, half] = OZONE_KM;
+        let ozone_share = (1.0 - (altitude - middle).abs() / half).max(0.0);
         let air = self.air.map(|a| a * air_share);
+        let haze = self.haze.map(|h| h * haze_share);
         Medium {
             air,
-            haze: HAZE_SCATTERING * haze_share,
+            haze: haze.map(|h| AEROSOL_ALBEDO * h),
             // The floor only keeps `pass` from dividing by zero.
-            extinction: each(|c| air[c] + haze_extinction + self.ozone[c] * ozone_share + 1e-9),
+            extinction: each(|c| air[c] + haze[c] + self.ozone[c] * ozone_share + 1e-9),
         }
     }
 
     /// Transmittance from an altitude to the sun (Bruneton and Neyret 2008, eq. 2); 0 behind the Earth.
-    fn transmittance_along(&self, altitude: f32, sun_sin: f32) -> Spectrum {
+    pub(super) fn transmittance_along(&self, altitude: f32, sun_sin: f32) -> Spectrum {
         let radius = GROUND_KM + altitude;
         let visible = sun_above_horizon(radius, sun_sin);
         if visible == 0.0 {
@@ -207,15 +207,16 @@ impl Atmosphere {
             let medium = self.medium(here);
             let direct = self.transmittance.read(here, sun_here);
             let spread = medium.pass(span, &mut through);
-            let spread: Spectrum = each(|c| spread[c] * (medium.air[c] + medium.haze));
+            let spread: Spectrum = each(|c| spread[c] * (medium.air[c] + medium.haze[c]));
             light = each(|c| light[c] + spread[c] * direct[c] / (4.0 * PI));
             share = each(|c| share[c] + spread[c]);
         }
         if to_ground.is_some() {
             let (_, sun_there) = along(radius, view, length, sun);
             let lit = self.transmittance.read(0.0, sun_there);
-            light =
-                each(|c| light[c] + through[c] * lit[c] * GROUND_ALBEDO / PI * sun_there.max(0.0));
+            light = each(|c| {
+                light[c] + through[c] * lit[c] * self.ground_albedo / PI * sun_there.max(0.0)
+            });
         }
         (light, share)
     }
@@ -249,47 +250,33 @@ fn squared_steps(length: f32, count: usize) -> impl Iterator<Item = (f32, f32)> 
     (0..count).map(move |step| (0.5 * (end(step) + end(step + 1)), end(step + 1) - end(step)))
 }
 
-/// Rayleigh's phase function (Bruneton and Neyret 2008, section 2.1).
-fn air_phase(cosine: f32) -> f32 {
-    3.0 / (16.0 * PI) * (1.0 + cosine * cosine)
-}
-
-/// Cornette and Shanks's phase function (Bruneton and Neyret 2008, eq. 4).
-fn haze_phase(cosine: f32) -> f32 {
-    let g = HAZE_ASYMMETRY;
-    let base = 1.0 + g * g - 2.0 * g * cosine;
-    3.0 / (8.0 * PI) * (1.0 - g * g) * (1.0 + cosine * cosine)
-        / ((2.0 + g * g) * base * libm::sqrtf(base))
-}
-
 #[cfg(test)]
 mod tests {
+    use welkin_pack::air::{CLEAR_AEROSOL_DEPTH, aureole_phase, sun_transmittance};
+
     use super::*;
 
-    /// Integral of a phase function over the sphere, by the midpoint rule in the cosine.
-    fn whole(phase: fn(f32) -> f32) -> f32 {
-        let steps = 100_000;
-        let cosine = |i: i32| -1.0 + 2.0 * (i as f32 + 0.5) / steps as f32;
-        let sum: f64 = (0..steps).map(|i| f64::from(phase(cosine(i)))).sum();
-        (sum * 4.0 * std::f64::consts::PI / f64::from(steps)) as f32
+    fn clear() -> Atmosphere {
+        with_aerosol(CLEAR_AEROSOL_DEPTH)
     }
 
-    #[test]
-    fn phase_functions_scatter_all_light_once() {
-        // The rule's own error is below 1e-6 for these smooth functions; the rest is f32.
-        assert!((whole(air_phase) - 1.0).abs() < 1e-4);
-        assert!((whole(haze_phase) - 1.0).abs() < 1e-4);
+    fn with_aerosol(aerosol_depth: f32) -> Atmosphere {
+        Atmosphere::new(Settings {
+            aerosol_depth,
+            ground_albedo: 0.2,
+            ozone: 1.0,
+        })
     }
 
     #[test]
     fn overhead_sun_is_dimmed_by_the_vertical_depth() {
-        let atmosphere = Atmosphere::new(1.0);
+        let atmosphere = clear();
         let found = atmosphere.transmittance_along(0.0, 1.0);
-        let haze = (HAZE_SCATTERING + HAZE_ABSORPTION) * HAZE_SCALE_KM;
         for (c, found) in found.into_iter().enumerate() {
             // Exponential layers hold a scale height (the top cuts off e^-12.5 of one), a tent its half width.
-            let depth =
-                atmosphere.air[c] * AIR_SCALE_KM + haze + atmosphere.ozone[c] * OZONE_HALF_KM;
+            let depth = atmosphere.air[c] * MOLECULE_SCALE_KM
+                + atmosphere.haze[c] * AEROSOL_SCALE_KM
+                + atmosphere.ozone[c] * OZONE_KM[1];
             let expected = libm::expf(-depth);
             // The steps' midpoints miss less than 1 % of a depth below 0.4.
             assert!((found - expected).abs() < 0.004, "{c}: {found} {expected}");
@@ -297,8 +284,25 @@ mod tests {
     }
 
     #[test]
+    fn the_closed_form_of_sunlight_is_that_of_the_integral() {
+        let atmosphere = clear();
+        for degrees in [90.0_f32, 60.0, 30.0, 10.0, 5.0, 3.0] {
+            let rad = degrees.to_radians();
+            let integral = atmosphere.transmittance_along(0.0, libm::sinf(rad));
+            let closed = sun_transmittance(rad, CLEAR_AEROSOL_DEPTH);
+            for c in 0..COUNT {
+                // Air masses know refraction and the real profile of the air, the integral knows an exponential without refraction: at 3
+                // degrees their depths differ by some 2 %, more where the depth is 5.
+                let bound = 0.02 + 0.06 * -libm::logf(integral[c].max(1e-6)) * 0.5;
+                let off = libm::logf(closed[c] / integral[c]).abs();
+                assert!(off < bound, "{degrees}, {c}: {} {}", closed[c], integral[c]);
+            }
+        }
+    }
+
+    #[test]
     fn no_light_from_below_the_horizon_and_less_from_a_lower_sun() {
-        let atmosphere = Atmosphere::new(1.0);
+        let atmosphere = clear();
         assert_eq!(atmosphere.transmittance_along(0.0, -0.1), [0.0; COUNT]);
         // From 60 km up that sun stands above the horizon, behind 28 km of thin air.
         assert!(atmosphere.transmittance_along(60.0, -0.1)[4] > 0.1);
@@ -310,13 +314,14 @@ mod tests {
     }
 
     #[test]
-    fn without_an_atmosphere_of_haze_the_sky_is_bluer() {
-        let blue = |haze| {
-            let atmosphere = Atmosphere::new(haze);
-            let light = atmosphere.radiance(&atmosphere.line(1.0), 0.7, &[(0.0, 1.0)]);
-            light[1] / light[6]
+    fn with_less_aerosol_the_sky_is_bluer() {
+        let blue = |depth| {
+            let atmosphere = with_aerosol(depth);
+            let light = atmosphere.seen(&atmosphere.line(1.0), 0.7, 0.0);
+            let whole = |c: usize| light.radiance[c] + light.aureole[c] * aureole_phase(0.7);
+            whole(1) / whole(6)
         };
-        assert!(blue(0.0) > blue(1.0) && blue(1.0) > blue(5.0));
+        assert!(blue(0.0) > blue(0.04) && blue(0.04) > blue(0.2));
         // Single scattering goes with the fourth power of the wavelength: (640 / 440)^4 = 4.5. Scattering
         // out of the line and again into it takes some of that back.
         assert!((3.0..4.5).contains(&blue(0.0)), "{}", blue(0.0));
@@ -324,16 +329,22 @@ mod tests {
 
     #[test]
     fn scattered_light_never_exceeds_what_the_sun_sends() {
-        let atmosphere = Atmosphere::new(1.0);
+        let atmosphere = clear();
         for view in [0.0, 0.1, 0.5, 1.0] {
             let line = atmosphere.line(view);
             for sun in [-0.2, 0.0, 0.3, 0.9] {
-                let light = atmosphere.radiance(&line, sun, &[(-0.5, 1.0)]);
+                let light = atmosphere.seen(&line, sun, -0.5);
                 // An even white dome of radiance 1/pi would light the ground as the sun itself does.
                 assert!(
                     light
+                        .radiance
                         .iter()
                         .all(|&l| (0.0..std::f32::consts::FRAC_1_PI).contains(&l)),
+                    "{light:?}"
+                );
+                // All of the sun's light, scattered once, is the most that the aureole can have.
+                assert!(
+                    light.aureole.iter().all(|l| (0.0..=1.0).contains(l)),
                     "{light:?}"
                 );
             }

@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
+use welkin_pack::air::Spectrum;
+
 use super::geometry::{GROUND_KM, TOP_KM};
-use super::spectrum::Spectrum;
 
 pub(super) struct Table {
     rows: usize,

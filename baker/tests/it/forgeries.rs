@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 use serde_json::{Value, json};
 use welkin_baker::{Recipe, Resolved};
 use welkin_pack::check::{Report, check_memory};
+use welkin_pack::mapping::SkyLayer;
 use welkin_pack::{Field, Format, Image, Pack, PackInfo, Role, Source, Texture};
 
 const RECIPE: &str = r#"
@@ -23,8 +24,7 @@ count = 400
 [galaxy]
 size = 64
 [sky]
-width = 64
-height = 16
+suns = 24
 [sun]
 size = 64
 [fbm]
@@ -124,6 +124,7 @@ fn info(resolved: &Resolved) -> PackInfo {
         recipe: resolved.recipe.clone(),
         inputs: Vec::new(),
         noon_elevation_rad: resolved.sun.noon_elevation_rad,
+        aerosol_depths: resolved.sky.aerosol_depths,
         noise: resolved.clouds.noise,
         detail: resolved.clouds.detail,
     }
@@ -176,6 +177,9 @@ impl Table {
         assert!(self.count >= least, "{}", self.count);
     }
 }
+
+/// Elevations of the sun in the table of the sky.
+const SUNS: u32 = 24;
 
 const CLOUDS: [&str; 3] = ["photo", "noise", "detail"];
 
@@ -527,14 +531,27 @@ fn forged_day_skies_are_refused() {
     let baked = Baked::new("rgba8unorm");
     let mut table = Table::default();
     let sky = |change: &dyn Fn(&mut [f32])| baked.texels(Role::Sky, change);
-    let turned = |place: &dyn Fn(u32, u32) -> [u32; 2]| {
+    // Each texel from another haze, sun, part, column and row.
+    type Place = [u32; 5];
+    let moved = |from: &dyn Fn(Place) -> Place| {
         baked.image(Role::Sky, |images| {
-            let sound = images[0].clone();
-            for (i, texel) in (0..).zip(images[0].texels.chunks_exact_mut(4)) {
-                let [x, y] = place(i % sound.width, i / sound.width);
-                texel.copy_from_slice(sound.texel(x, y));
+            let sound = images.clone();
+            let layers = (0..2).flat_map(|h| (0..SUNS).flat_map(move |s| [[h, s, 0], [h, s, 1]]));
+            let index = |haze, sun, part| SkyLayer { haze, sun, part }.index(SUNS) as usize;
+            for [haze, sun, part] in layers {
+                for (y, x) in (0..32).flat_map(|y| (0..16).map(move |x| (y, x))) {
+                    let [h, s, p, from_x, from_y] = from([haze, sun, part, x, y]);
+                    let texel = sound[index(h, s, p)].texel(from_x, from_y);
+                    images[index(haze, sun, part)]
+                        .texel_mut(x, y)
+                        .copy_from_slice(texel);
+                }
             }
         })
+    };
+    let grey = |t: &mut [f32]| {
+        let mean = (t[0] + t[1] + t[2]) / 3.0;
+        t[..3].fill(mean);
     };
     let sun = |change: &dyn Fn(&mut [f32])| baked.texels(Role::Sun, change);
     for (what, rule, pack) in [
@@ -549,35 +566,94 @@ fn forged_day_skies_are_refused() {
             "sky-colour",
             sky(&|t| t.swap(0, 1)),
         ),
+        ("grey", "sky-colour", sky(&grey)),
         ("negative", "sky-range", sky(&|t| t[0] = -t[0])),
-        ("night inverted", "sky-night", sky(&|t| t[3] = 1.0 - t[3])),
-        ("no night", "sky-hours", sky(&|t| t[3] = 0.0)),
         (
-            "night and blue swapped",
-            "sky-hours",
+            "something where nothing is",
+            "sky-range",
+            sky(&|t| t[3] = 0.5),
+        ),
+        (
+            "blue and nothing swapped",
+            "sky-range",
             sky(&|t| t.swap(2, 3)),
         ),
-        ("black", "sky-day", sky(&|t| t[..3].fill(0.0))),
+        ("black", "sky-light", sky(&|t| t.fill(0.0))),
         (
             "of one colour",
-            "sky-day",
+            "sky-light",
             sky(&|t| t[..3].copy_from_slice(&[0.2, 0.3, 0.5])),
         ),
         (
-            "twelve hours late",
-            "sky-hours",
-            turned(&|x, y| [(x + 32) % 64, y]),
+            "at a tenth",
+            "sky-light",
+            sky(&|t| t.iter_mut().for_each(|v| *v *= 0.1)),
         ),
         (
-            "an hour late",
-            "sky-hours",
-            turned(&|x, y| [(x + 3) % 64, y]),
+            "noon at every hour",
+            "sky-light",
+            moved(&|[h, _, p, x, y]| [h, SUNS - 1, p, x, y]),
         ),
-        ("upside down", "sky-day", turned(&|x, y| [x, 15 - y])),
         (
-            "morning all day",
-            "sky-hours",
-            turned(&|x, y| [x.min(32), y]),
+            "suns backwards",
+            "sky-light",
+            moved(&|[h, s, p, x, y]| [h, SUNS - 1 - s, p, x, y]),
+        ),
+        (
+            "three suns late",
+            "sky-light",
+            moved(&|[h, s, p, x, y]| [h, s.saturating_sub(3), p, x, y]),
+        ),
+        (
+            "three suns early",
+            "sky-light",
+            moved(&|[h, s, p, x, y]| [h, (s + 3).min(SUNS - 1), p, x, y]),
+        ),
+        (
+            "upside down",
+            "sky-zenith",
+            moved(&|[h, s, p, x, y]| [h, s, p, x, 31 - y]),
+        ),
+        (
+            "the sun at its back",
+            "sky-dusk",
+            moved(&|[h, s, p, x, y]| [h, s, p, 15 - x, y]),
+        ),
+        (
+            "the same at every azimuth",
+            "sky-dusk",
+            moved(&|[h, s, p, _, y]| [h, s, p, 8, y]),
+        ),
+        (
+            "columns in another order",
+            "sky-smooth",
+            moved(&|[h, s, p, x, y]| [h, s, p, x * 5 % 16, y]),
+        ),
+        (
+            "hazes swapped",
+            "sky-haze",
+            moved(&|[h, s, p, x, y]| [1 - h, s, p, x, y]),
+        ),
+        (
+            "one haze for both",
+            "sky-haze",
+            moved(&|[_, s, p, x, y]| [0, s, p, x, y]),
+        ),
+        (
+            "parts swapped",
+            "sky-light",
+            moved(&|[h, s, p, x, y]| [h, s, 1 - p, x, y]),
+        ),
+        (
+            "no aureole",
+            "sky-haze",
+            baked.image(Role::Sky, |images| {
+                images
+                    .iter_mut()
+                    .skip(1)
+                    .step_by(2)
+                    .for_each(|i| i.texels.fill(0.0));
+            }),
         ),
         ("sun black", "sun-disc", sun(&|t| t.fill(0.0))),
         ("disc and glow swapped", "sun-disc", sun(&|t| t.swap(0, 1))),
@@ -599,7 +675,7 @@ fn forged_day_skies_are_refused() {
     ] {
         table.refuse(what, rule, &pack);
     }
-    table.end(20);
+    table.end(29);
 }
 
 #[test]
@@ -919,8 +995,8 @@ fn forged_manifests_are_refused() {
         ("noon below the horizon", "manifest", &|m| {
             m["noon_elevation_rad"] = json!(-0.5)
         }),
-        ("another noon", "sky-hours", &|m| {
-            m["noon_elevation_rad"] = json!(0.7)
+        ("depths that fall", "manifest", &|m| {
+            m["aerosol_depths"] = json!([0.24, 0.04])
         }),
         ("a range that lies", "manifest", &|m| {
             channel(m, 1, 1, "range", json!([0.0, 1.0]))

@@ -13,7 +13,7 @@ use welkin_pack::manifest::Input;
 use welkin_pack::role::Wrap;
 
 const RECIPE: &str = "name = \"small\"\n[clouds]\nsize = 64\n[stars]\nsize = 64\ncount = 20\n\
-    [galaxy]\nsize = 32\n[sky]\nwidth = 16\nheight = 16\n[sun]\nsize = 16\n\
+    [galaxy]\nsize = 32\n[sky]\nsuns = 16\n[sun]\nsize = 16\n\
     [fbm]\nsize = 64\ncells = 16\n[flares]\nsize = 64\n[layers]\nsize = 64\n[sprites]\nsize = 128\n\
     [field]\nsections = 1\n";
 
@@ -96,9 +96,10 @@ fn every_kind_of_change_is_named_and_nothing_else() {
     layers.levels[1][byte] = density ^ 1;
     layers.levels[2][11] ^= 1;
     layers.levels[2][11 + 16] ^= 1;
-    // A half float of the sky: texel (3, 2), green.
+    // A half float of the sky: texel (3, 2) of the fifth image of 16x32, green.
     let mut sky = texture(&mut forged, Role::Sky);
-    sky.levels[0][(2 * 16 + 3) * 8 + 2..][..2].copy_from_slice(&0x7e00_u16.to_le_bytes());
+    sky.levels[0][((4 * 32 + 2) * 16 + 3) * 8 + 2..][..2]
+        .copy_from_slice(&0x7e00_u16.to_le_bytes());
     let mut sun = texture(&mut forged, Role::Sun);
     sun.levels.truncate(1);
     texture(&mut forged, Role::Flares);
@@ -140,7 +141,7 @@ fn every_kind_of_change_is_named_and_nothing_else() {
     assert!(
         of("sky.green")
             .2
-            .starts_with("first at level 0, (3, 2): NaN (0x7e00) in the pack, ")
+            .starts_with("first at level 0, layer 4, (3, 2): NaN (0x7e00) in the pack, ")
     );
     let (_, values, note) = of("layers.density");
     let place = "first at level 1, layer 1 (cumulus), (5, 7)";

@@ -17,7 +17,7 @@ use welkin_pack::{Format, Image, Pack, PackInfo, Role, Texture, ktx};
 use crate::common;
 
 const RECIPE: &str = "[clouds]\nsize = 64\n[stars]\nsize = 64\ncount = 60\n\
-    [galaxy]\nsize = 32\n[sky]\nwidth = 16\nheight = 16\n[sun]\nsize = 32\n\
+    [galaxy]\nsize = 32\n[sky]\nsuns = 16\n[sun]\nsize = 32\n\
     [fbm]\nsize = 64\ncells = 16\noctaves = 2\n[flares]\nsize = 64\n[layers]\nsize = 64\n[sprites]\nsize = 128\n";
 
 fn pack() -> Pack {
@@ -29,6 +29,7 @@ fn pack() -> Pack {
         recipe: resolved.recipe,
         inputs: Vec::new(),
         noon_elevation_rad: resolved.sun.noon_elevation_rad,
+        aerosol_depths: resolved.sky.aerosol_depths,
         ..PackInfo::default()
     };
     Pack::build(info, sources).unwrap()
@@ -240,6 +241,14 @@ fn what_does_not_fit_is_refused_with_what_was_found_and_expected() {
         let channels: Vec<_> = names.iter().map(|n| (*n, vec![0.5; 64 * 64])).collect();
         exr(64, 64, &channels)
     };
+    let sky = |width: u32, height: u32| {
+        let values = vec![0.5; (width * height) as usize];
+        exr(
+            width,
+            height,
+            &["R", "G", "B", "A"].map(|n| (n, values.clone())),
+        )
+    };
     let mut out_of_range = vec![0.5_f32; 64 * 64];
     out_of_range[65] = 1.5;
     let r8 = Texture {
@@ -289,6 +298,16 @@ fn what_does_not_fit_is_refused_with_what_was_found_and_expected() {
         ),
         (rgba(64, 128), Role::Layers, "layers is 2, expected 3"),
         (
+            sky(16, 48),
+            Role::Sky,
+            "size is 16x48, expected layers of 16x32, one below the other",
+        ),
+        (
+            sky(8, 16 * 66),
+            Role::Sky,
+            "layers is 66, expected a multiple of 4",
+        ),
+        (
             rgba(64, 64),
             Role::Sky,
             "format is PNG, expected OpenEXR or KTX2",
@@ -296,7 +315,7 @@ fn what_does_not_fit_is_refused_with_what_was_found_and_expected() {
         (
             float(&["R", "G", "B"]),
             Role::Sky,
-            "channels is B, G, R, expected 4: red, green, blue, night",
+            "channels is B, G, R, expected 4: red, green, blue, padding",
         ),
         (
             float(&["R", "G"]),

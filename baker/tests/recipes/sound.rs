@@ -10,7 +10,7 @@ use welkin_pack::Pack;
 use welkin_pack::check::{Finding, Outcome};
 
 /// The default recipe with textures as small as they may be.
-const SMALL: &str = "clouds.size = 64\ngalaxy.size = 32\nsky.width = 32\nsky.height = 16\nfbm.size = 64\n\
+const SMALL: &str = "clouds.size = 64\ngalaxy.size = 32\nsky.suns = 16\nfbm.size = 64\n\
     flares.size = 64\nlayers.size = 64\nsprites.size = 128\nfield.sections = 0\n";
 
 fn pack(more: &str) -> Pack {
@@ -34,6 +34,16 @@ fn what_is_legal_at_an_end_of_its_range_is_sound() {
         "sun.noon_elevation_deg = 5",
         "sun.noon_elevation_deg = 15",
         "sun.size = 16",
+        "sky.width = 64",
+        "sky.height = 64",
+        "sky.suns = 64",
+        "sky.haze = 0",
+        "sky.haze = 10",
+        "sky.most_haze = 1.11",
+        "sky.most_haze = 40",
+        "sky.haze = 10\nsky.most_haze = 40",
+        "sky.haze = 10\nsky.most_haze = 10.2",
+        "sky.haze = 0\nsky.most_haze = 0.1",
         "stars.count = 20",
         "stars.count = 1",
         "clouds.photo.mean = 0.05",
@@ -93,8 +103,8 @@ fn every_rule_is_told_by_a_key_that_a_recipe_has() {
         "clouds.photo.file"
     );
     assert_eq!(
-        recipe_key(&finding("sky-day", "noon / midnight")),
-        "sun.noon_elevation_deg"
+        recipe_key(&finding("sky-dusk", "horizon / zenith")),
+        "sky.haze"
     );
 }
 

@@ -29,8 +29,7 @@ count = 60
 [galaxy]
 size = 64
 [sky]
-width = 64
-height = 16
+suns = 16
 [fbm]
 size = 64
 octaves = 2

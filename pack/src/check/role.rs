@@ -13,15 +13,12 @@ use crate::texture::Texture;
 pub(super) struct Claim<'a> {
     /// The texture's entry.
     pub entry: Option<&'a TextureEntry>,
-    /// Elevation of the sun at noon.
-    pub noon_elevation_rad: Option<f32>,
 }
 
 impl Claim<'_> {
     pub(super) fn new(manifest: &Manifest, role: Role) -> Claim<'_> {
         Claim {
             entry: manifest.texture(role),
-            noon_elevation_rad: Some(manifest.noon_elevation_rad),
         }
     }
 }
@@ -37,7 +34,7 @@ pub(super) fn check_role(report: &mut Report, role: Role, texture: &Texture, cla
         Role::Clouds => clouds::check(report, texture, claim.entry),
         Role::Stars => stars::check(report, texture),
         Role::Galaxy => galaxy::check(report, texture),
-        Role::Sky => sky::check(report, texture, claim.noon_elevation_rad),
+        Role::Sky => sky::check(report, texture),
         Role::Sun => sun::check(report, texture),
         Role::Octaves => octaves::check(report, texture),
         Role::Fbm => fbm::check(report, texture),

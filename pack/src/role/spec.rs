@@ -78,6 +78,8 @@ pub struct RoleSpec {
     pub sides: [u32; 2],
     /// Least and greatest number of images a level.
     pub layers: [u32; 2],
+    /// What their number is a multiple of.
+    pub layers_multiple: u32,
     /// Where each layer has twice the cells of the one before: the fewest of the first. A cell has two texels or more, so
     /// the width bounds the layers too.
     pub least_cells: Option<u32>,
@@ -132,6 +134,10 @@ impl RoleSpec {
                 format!("{least} to {most}")
             };
             return bad("layers", layers, expected);
+        }
+        let group = self.layers_multiple;
+        if !layers.is_multiple_of(group) {
+            return bad("layers", layers, format!("a multiple of {group}"));
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 use super::spec::{ChannelSpec, Filter, Mips, RoleSpec, Wrap};
 use crate::format::{Format, Shape};
 use crate::limits::MAX_SIDE;
-use crate::mapping::FBM_LEAST_CELLS;
+use crate::mapping::{FBM_LEAST_CELLS, SKY_HAZES, SKY_PARTS};
 use crate::texel::StarTexel;
 
 /// Sides of a texture that may be as small or large as anyone likes.
@@ -33,6 +33,16 @@ const fn radiance(name: &'static str, meaning: &'static str) -> ChannelSpec {
     channel(name, meaning, "white of a sunlit cloud at noon", 1.0)
 }
 
+/// Of the table of the clear sky, whose unit changes with the hour.
+const fn light(name: &'static str, meaning: &'static str) -> ChannelSpec {
+    channel(
+        name,
+        meaning,
+        "unit of the sun's elevation, 32000 cd/m2 at 60 degrees",
+        1.0,
+    )
+}
+
 /// A component of a unit vector.
 const fn normal(name: &'static str, meaning: &'static str) -> ChannelSpec {
     ChannelSpec {
@@ -55,6 +65,7 @@ const TILE: RoleSpec = RoleSpec {
     size: [256, 256],
     sides: ANY_SIDE,
     layers: [1, 1],
+    layers_multiple: 1,
     least_cells: None,
     mips: Mips::All,
     wrap: Wrap::Repeat,
@@ -101,16 +112,19 @@ pub(super) const GALAXY: RoleSpec = RoleSpec {
 
 pub(super) const SKY: RoleSpec = RoleSpec {
     formats: &[Format::Rgba16Float],
-    size: [128, 64],
+    shape: Shape::Array,
+    size: [16, 32],
+    sides: [8, 64],
+    // Two parts of two hazes for 16 to 64 suns.
+    layers: [64, 256],
+    layers_multiple: SKY_HAZES * SKY_PARTS,
     mips: Mips::One,
+    wrap: Wrap::Clamp,
     channels: &[
-        radiance("red", "radiance of the clear sky, linear BT.709, red"),
-        radiance("green", "radiance of the clear sky, linear BT.709, green"),
-        radiance("blue", "radiance of the clear sky, linear BT.709, blue"),
-        share(
-            "night",
-            "share of the night sky that shows through, 0 by day",
-        ),
+        light("red", "light of the clear sky, linear BT.709, red"),
+        light("green", "light of the clear sky, linear BT.709, green"),
+        light("blue", "light of the clear sky, linear BT.709, blue"),
+        share("padding", "nothing"),
     ],
     ..TILE
 };

@@ -18,9 +18,9 @@
 use glam::{Vec2, Vec3, Vec4};
 use welkin_pack::mapping::FlareCell;
 
-use crate::clear_sky::light::{Light, luminance};
+use crate::clear_sky::light::Light;
 use crate::geometry::camera::CameraUniforms;
-use crate::geometry::math::smoothstep;
+use crate::geometry::math::{luminance, smoothstep};
 use crate::geometry::part::Part;
 use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
@@ -107,7 +107,11 @@ pub fn uniforms(
     let in_view = sun.map_or(0.0, |sun| {
         1.0 - smoothstep(1.0 - EDGE, 1.0, sun.abs().max_element())
     });
-    let risen = smoothstep(RISE[0], RISE[1], light.sun_direction.y);
+    // The moon is too weak for one.
+    let risen = match light.is_moon {
+        true => 0.0,
+        false => smoothstep(RISE[0], RISE[1], light.sun_direction.y),
+    };
     let mut flares = FlareUniforms {
         strength: params.flare * in_view * risen,
         sun_radius: HIDING,

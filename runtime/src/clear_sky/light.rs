@@ -1,21 +1,24 @@
-//! Sun and sky as light sources, by the time of day: computed once a frame.
+//! Sun, moon and sky as light sources, by the time of day: computed once a frame.
 //!
 //! # Theory
-//! Sunlight is what the air leaves of it: `exp(-tau m)` with the optical depths of molecules, ozone and
-//! haze over the relative air mass m of F. Kasten, A. T. Young, "Revised optical air mass tables and
-//! approximation formula", Applied Optics 28(22), 1989, eq. 3. The light of the sky is the mean radiance
-//! of the pack's own day gradient, so that the clouds of a pack belong to its sky.
+//! Sunlight is what the air leaves of it ([`welkin_pack::air::sun_transmittance`]). It is stored as the radiance of a white surface
+//! that faces it, `E / pi`, in the unit of the hour ([`unit_luminance_cd_m2`]), so that sun and sky belong together. Clouds stand
+//! above most of the aerosol and a fifth of the air, and see the sun a little longer. The light of the sky is the mean of the pack's table.
 //!
 //! # Changes versus the paper
 //! The paper's `amount_sunlight` is one number (line 28). Here it is two colours, sunlight and skylight.
+//! The full moon stands opposite the sun. Its light is 400,000 times weaker; what eyes that have got used to the night see of it is a
+//! constant here (`MOONLIGHT`), and the sky around it is the sun's, dimmed as much.
 //!
 //! # Practice
-//! Some 64 texels and a few exponentials a frame.
+//! Some 30 microseconds a frame, most of it for the table.
 
 use glam::Vec3;
-use welkin_pack::{Image, mapping};
+use welkin_pack::air::{Colour, SUN_ILLUMINANCE_LX, sun_transmittance, unit_luminance_cd_m2};
+use welkin_pack::mapping;
 
-use crate::geometry::math::smoothstep;
+use crate::clear_sky::table::{SkyTable, SkyView};
+use crate::geometry::math::{LUMINANCE, luminance, smoothstep};
 use crate::geometry::part::{Part, Value};
 
 /// Its part of the shader.
@@ -25,166 +28,224 @@ pub const PART: Part = Part {
     wgsl: "",
 };
 
-/// Optical depth of the air's molecules to the zenith at 680, 550 and 440 nm: the scattering
-/// coefficients 5.802, 13.558, 33.1 per 1000 km times the scale height 8 km.
-/// S. Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", EGSR 2020, table 1.
-const RAYLEIGH_DEPTH: Vec3 = Vec3::new(0.0464, 0.1085, 0.2648);
+/// How far below the horizon the sun still lights clouds 2 km high, in radians: `acos(R / (R + h))`.
+const CLOUD_DIP_RAD: f32 = 0.025;
+/// Share of the aerosol that is above them, with a scale height of 1.2 km.
+const AEROSOL_ABOVE_CLOUDS: f32 = 0.19;
+/// Half the sun's angular diameter, in radians: 0.2666 degrees at its mean distance.
+pub const SUN_RADIUS_RAD: f32 = 0.004_653;
 
-/// Optical depth of ozone: 0.650, 1.881, 0.085 per 1000 km over a tent of 15 km (same table).
-const OZONE_DEPTH: Vec3 = Vec3::new(0.0098, 0.0282, 0.0013);
-
-/// Optical depth of haze, the same for all colours: a clear day has about 0.1.
-const HAZE_DEPTH: f32 = 0.08;
-
-/// Clouds stand above the densest air: the longest path that light takes to them, in air masses.
-const MAX_AIR_MASS: f32 = 9.0;
-
-/// How bright sunlit white is beside the light of the sky at noon; both together make about 1.
-const NOON_SUNLIGHT: f32 = 0.78;
-
-/// Light at one time of day. Colours are linear BT.709, 1 is the white of a sunlit cloud at noon.
+/// Light at one moment. Colours are linear BT.709, in the unit of the hour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
-    /// Unit direction towards the sun.
+    /// Unit direction towards the sun, or by night the moon.
     pub sun_direction: Vec3,
-    /// What the air leaves of the sun's light, relative to noon; black once the sun is well down.
+    /// What it gives to clouds: the radiance of a white surface that faces it.
     pub sunlight: Vec3,
+    /// The same at the ground.
+    pub ground_sunlight: Vec3,
+    /// The same if all of the disc were above the horizon.
+    pub disc: Vec3,
     /// Mean radiance of the clear sky.
     pub skylight: Vec3,
+    /// Irradiance of a horizontal plane by the clear sky, over pi.
+    pub sky_on_ground: Vec3,
     /// Share of the night sky that shows, 0 by day.
     pub night: f32,
+    /// Share of stars and Milky Way that moonlight leaves to be seen.
+    pub dark: f32,
+    /// What a radiance of 1 stands for, in cd/m2.
+    pub unit_cd_m2: f32,
+    /// Whether it is the moon that shines.
+    pub is_moon: bool,
 }
 
-impl Light {
-    /// The light at `time` (0..1) under the sky gradient of a pack.
-    pub fn new(sky: &Image, noon_elevation_rad: f32, time: f32) -> Light {
-        let sun_direction = Vec3::from(mapping::sun_direction(time, noon_elevation_rad));
-        let noon = transmittance(noon_elevation_rad);
-        let strength = NOON_SUNLIGHT * daylight(sun_direction.y);
-        let (skylight, night) = sky_column(sky, time);
-        let elevation_rad = sun_direction.y.clamp(-1.0, 1.0).asin();
-        let sunlight = adapted(transmittance(elevation_rad) / noon) * strength;
-        Light {
-            sun_direction,
-            sunlight,
-            skylight,
+/// The light at a moment, and the clear sky that goes with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LitSky {
+    /// What lights clouds and ground.
+    pub light: Light,
+    /// The sky.
+    pub view: SkyView,
+}
+
+impl LitSky {
+    /// At `time` (0..1) under the table of a pack, with a haze of 0..1 and a full moon of a strength of 0..1.
+    pub fn new(
+        table: &SkyTable,
+        noon_elevation_rad: f32,
+        time: f32,
+        haze: f32,
+        moon: f32,
+    ) -> LitSky {
+        let sun = Vec3::from(mapping::sun_direction(time, noon_elevation_rad));
+        let elevation_rad = sun.y.clamp(-1.0, 1.0).asin();
+        let unit_cd_m2 = unit_luminance_cd_m2(elevation_rad);
+        let depth = table.aerosol_depth(haze);
+        let night = mapping::night_share(sun.y);
+        let mut view = table.view(elevation_rad, haze);
+        let mut light = Light {
+            sun_direction: sun,
+            sunlight: cloud_sunlight(elevation_rad, depth, unit_cd_m2),
+            ground_sunlight: ground_sunlight(elevation_rad, depth, unit_cd_m2),
+            disc: sunlight(elevation_rad, depth, unit_cd_m2),
+            skylight: Vec3::ZERO,
+            sky_on_ground: Vec3::ZERO,
             night,
+            dark: 1.0,
+            unit_cd_m2,
+            is_moon: false,
+        };
+        let mut luminary_rad = elevation_rad;
+        if sun.y <= MOONRISE[0] {
+            let up = moon * (1.0 - smoothstep(MOONRISE[1], MOONRISE[0], sun.y));
+            luminary_rad = -elevation_rad;
+            // The sun's own light at that elevation, and what of it the moon's stands for.
+            let unit = unit_luminance_cd_m2(luminary_rad);
+            let sunlit = ground_sunlight(luminary_rad, depth, unit);
+            let dimmed = MOONLIGHT * up / luminance(white_sunlight(unit));
+            let mut moonlit = table
+                .view(luminary_rad, haze)
+                .scaled(dimmed)
+                .faded(NIGHT_GREY);
+            moonlit.add_opposite(&view);
+            view = moonlit;
+            light.sun_direction = -sun;
+            light.sunlight = cloud_sunlight(luminary_rad, depth, unit) * dimmed;
+            light.ground_sunlight = sunlit * dimmed;
+            light.disc = sunlit * dimmed;
+            light.is_moon = true;
+            light.dark = 1.0 - MOON_HIDES * up;
         }
+        view.add_airglow(AIRGLOW * night);
+        let [mean, on_ground] = table.means(&view, luminary_rad);
+        light.skylight = mean;
+        light.sky_on_ground = on_ground;
+        LitSky { light, view }
     }
 }
 
-/// Relative air mass at an elevation: 1 at the zenith, nine (`MAX_AIR_MASS`) at and below the horizon.
-/// Kasten and Young 1989, eq. 3 (elevation in degrees).
-pub fn air_mass(elevation_rad: f32) -> f32 {
-    let degrees = elevation_rad.to_degrees().max(0.0);
-    let sin = degrees.to_radians().sin();
-    (1.0 / (sin + 0.50572 * (degrees + 6.07995).powf(-1.6364))).min(MAX_AIR_MASS)
+/// The radiance of a white surface that faces the sun through the clearest air, with the sun at 60 degrees.
+fn white_sunlight(unit_cd_m2: f32) -> Vec3 {
+    sunlight(
+        welkin_pack::air::WHITE_ELEVATION_RAD,
+        welkin_pack::air::CLEAR_AEROSOL_DEPTH,
+        unit_cd_m2,
+    )
 }
 
-/// Share of sunlight that reaches the clouds, for red, green and blue.
-pub fn transmittance(elevation_rad: f32) -> Vec3 {
-    let depth = (RAYLEIGH_DEPTH + OZONE_DEPTH + HAZE_DEPTH) * air_mass(elevation_rad);
-    Vec3::new((-depth.x).exp(), (-depth.y).exp(), (-depth.z).exp())
+fn sunlight(elevation_rad: f32, aerosol_depth: f32, unit_cd_m2: f32) -> Vec3 {
+    let rgb = Colour::new().rgb(&sun_transmittance(elevation_rad, aerosol_depth));
+    Vec3::from(rgb) * (SUN_ILLUMINANCE_LX / std::f32::consts::PI / unit_cd_m2)
 }
 
-/// The eye adapts: of the dimming at a low sun only the square root of the luminance is kept.
-fn adapted(colour: Vec3) -> Vec3 {
-    colour / luminance(colour).max(1e-6).sqrt()
+/// The sun's light at the ground, for the part of its disc that has risen.
+fn ground_sunlight(elevation_rad: f32, aerosol_depth: f32, unit_cd_m2: f32) -> Vec3 {
+    let risen = smoothstep(-SUN_RADIUS_RAD, SUN_RADIUS_RAD, elevation_rad);
+    sunlight(elevation_rad, aerosol_depth, unit_cd_m2) * risen
 }
 
-/// How much of the sun's disc lights the clouds, over the sine of its elevation: from 0 (5 degrees under
-/// the horizon, where clouds at 3 km lose it) to 1.
-fn daylight(sin_elevation: f32) -> f32 {
-    smoothstep(-0.09, 0.12, sin_elevation)
+/// The sun's light on clouds.
+fn cloud_sunlight(elevation_rad: f32, aerosol_depth: f32, unit_cd_m2: f32) -> Vec3 {
+    // The sun sets later there, over some degrees as the clouds are not all of one height.
+    let risen = smoothstep(-3.0 * CLOUD_DIP_RAD, CLOUD_DIP_RAD, elevation_rad);
+    let seen_rad = (elevation_rad + CLOUD_DIP_RAD).max(0.5 * CLOUD_DIP_RAD);
+    sunlight(seen_rad, aerosol_depth * AEROSOL_ABOVE_CLOUDS, unit_cd_m2) * risen
 }
 
-/// Mean radiance over the hemisphere and night share of one column.
-fn sky_column(sky: &Image, time: f32) -> (Vec3, f32) {
-    let [column, _] = mapping::sky_to_texel(time, 0.0, sky.width, sky.height);
-    let (left, share) = (column.floor(), column - column.floor());
-    let at = |row: u32| {
-        let a = sky.texel(left as u32 % sky.width, row);
-        let b = sky.texel((left as u32 + 1) % sky.width, row);
-        [0, 1, 2, 3].map(|c| a[c] + (b[c] - a[c]) * share)
-    };
-    let (mut sum, mut weights) = (Vec3::ZERO, 0.0);
-    for row in 0..sky.height {
-        // Rows are even in the root of the sine, and solid angle is even in the sine: d sin = 2 root d root.
-        let weight = row as f32;
-        let [r, g, b, _] = at(row);
-        sum += Vec3::new(r, g, b) * weight;
-        weights += weight;
-    }
-    let [.., night] = at(0);
-    (sum / weights.max(1.0), night.clamp(0.0, 1.0))
-}
+/// The full moon's light on a white surface as the eye, adapted to the night, sees it: grey with a breath of blue.
+pub(crate) const MOONLIGHT: Vec3 = Vec3::new(0.062, 0.066, 0.074);
 
-/// What red, green and blue of linear BT.709 add to luminance. ITU-R BT.709-6, 2015, item 3.2.
-pub const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+/// Airglow and faint stars overhead in a moonless night: a dark sky has 21.6 magnitudes a square arcsecond, that of a full moon some 18, 27 times as
+/// much (F. E. Roach, J. L. Gordon, "The Light of the Night Sky", 1973); of that the cube root is kept, as of all light ([`unit_luminance_cd_m2`]).
+const AIRGLOW: Vec3 = Vec3::new(0.0024, 0.0026, 0.0028);
 
-/// Luminance of linear BT.709.
-pub fn luminance(colour: Vec3) -> f32 {
-    colour.dot(LUMINANCE)
-}
+/// What eyes lose of colour by moonlight, which they see half by their rods; how much is chosen.
+const NIGHT_GREY: f32 = 0.45;
 
-/// The full moon's light on clouds as the eye, adapted to the night, sees it: grey with a breath of blue.
-pub(crate) const MOONLIGHT: Vec3 = Vec3::new(0.080, 0.090, 0.110);
+/// How much of stars and Milky Way a full moon hides: nearly all of them to an eye, and what a picture of both shows is chosen.
+const MOON_HIDES: f32 = 0.85;
 
 /// Sines of the sun's elevation between which the moon takes over: the sun's last light on clouds is gone at -0.09.
 const MOONRISE: [f32; 2] = [-0.10, -0.24];
-
-/// The light that clouds get: the sun's, or the full moon's, which stands opposite.
-pub fn luminary(light: &Light, moon: f32) -> Light {
-    if light.sun_direction.y > MOONRISE[0] {
-        return *light;
-    }
-    let up = 1.0 - smoothstep(MOONRISE[1], MOONRISE[0], light.sun_direction.y);
-    Light {
-        sun_direction: -light.sun_direction,
-        sunlight: MOONLIGHT * (moon * up),
-        ..*light
-    }
-}
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn air_mass_is_that_of_the_tables() {
-        // Kasten and Young 1989, table II: 1.9939 at 30 degrees, 5.5841 at 10 degrees.
-        assert!((air_mass(std::f32::consts::FRAC_PI_2) - 1.0).abs() < 1e-3);
-        assert!((air_mass(30_f32.to_radians()) - 1.9939).abs() < 2e-3);
-        assert!((air_mass(10_f32.to_radians()) - 5.5841).abs() < 1e-2);
-    }
-
-    #[test]
-    fn sunlight_reddens_and_dims_towards_the_horizon() {
-        let mut last = transmittance(1.5);
-        for degrees in (0..85).rev().step_by(5) {
-            let now = transmittance((degrees as f32).to_radians());
+    fn sunlight_reddens_towards_the_horizon_and_noon_is_white() {
+        let at = |degrees: f32| ground_sunlight(degrees.to_radians(), 0.04, 32_000.0);
+        let noon = at(60.0);
+        assert!((noon / noon.y - 1.0).abs().max_element() < 1e-4, "{noon}");
+        let mut last = at(89.0);
+        for degrees in (1..89).rev() {
+            let now = at(degrees as f32);
             assert!(now.cmple(last).all(), "brighter at {degrees}");
             assert!(now.x / now.z >= last.x / last.z, "less red at {degrees}");
             last = now;
         }
+        assert_eq!(at(-0.3), Vec3::ZERO);
     }
 
     #[test]
-    fn noon_lights_white_and_midnight_not_at_all() {
-        let sky = Image {
-            width: 2,
-            height: 2,
-            channels: 4,
-            texels: vec![0.2; 16],
+    fn clouds_are_lit_longer_than_the_ground() {
+        for degrees in [-1.0_f32, 0.0, 1.0, 5.0, 30.0] {
+            let [cloud, ground] =
+                [cloud_sunlight, ground_sunlight].map(|f| f(degrees.to_radians(), 0.04, 1e4));
+            assert!(
+                luminance(cloud) > luminance(ground),
+                "{degrees}: {cloud} {ground}"
+            );
+        }
+        assert_eq!(cloud_sunlight(-0.08, 0.04, 1e4), Vec3::ZERO);
+    }
+
+    /// A table that is the same everywhere, for two hazes of 16 suns.
+    fn table() -> SkyTable {
+        let texture = welkin_pack::Texture {
+            format: welkin_pack::Format::Rgba16Float,
+            shape: welkin_pack::Shape::Array,
+            width: 8,
+            height: 16,
+            layers: 64,
+            levels: vec![[0x00, 0x34].repeat(4 * 8 * 16 * 64)],
         };
-        let noon = Light::new(&sky, 1.0, 0.5);
+        SkyTable::new(&texture, [0.04, 0.24])
+    }
+
+    #[test]
+    fn the_moon_takes_over_where_the_sun_gives_nothing() {
+        let table = table();
+        // A sun that culminates in the zenith: the time of an evening at which its sine is so much.
+        let at = |sine: f32| {
+            let time = 0.5 + sine.acos() / std::f32::consts::TAU;
+            LitSky::new(&table, std::f32::consts::FRAC_PI_2, time, 0.0, 1.0).light
+        };
+        let dusk = at(-0.05);
+        assert!(!dusk.is_moon && dusk.sun_direction.y < 0.0 && dusk.sunlight.x > 0.0);
+        // At the change both are dark: no step.
+        assert!(!at(-0.0999).is_moon && at(-0.0999).sunlight.max_element() < 1e-6);
+        assert!(at(-0.1001).is_moon && at(-0.1001).sunlight.max_element() < 1e-3);
+        let night = at(-0.8);
+        assert!((night.sun_direction.y - 0.8).abs() < 1e-3);
+        // A high moon's light on clouds, which have some of the air below them.
+        let ratio = night.sunlight / MOONLIGHT;
         assert!(
-            (noon.sunlight - Vec3::splat(NOON_SUNLIGHT))
-                .abs()
-                .max_element()
-                < 1e-3
+            ratio.min_element() > 0.95 && ratio.max_element() < 1.35,
+            "{ratio}"
         );
-        assert!((noon.skylight - Vec3::splat(0.2)).abs().max_element() < 1e-6);
-        assert_eq!(Light::new(&sky, 1.0, 0.0).sunlight, Vec3::ZERO);
+        assert!(luminance(night.ground_sunlight) < luminance(night.sunlight));
+    }
+
+    #[test]
+    fn the_disc_fits_half_floats_at_every_hour() {
+        for step in 0..=900 {
+            let elevation_rad = (step as f32 * 0.1).to_radians();
+            let unit = unit_luminance_cd_m2(elevation_rad);
+            // The clearest air that a recipe can have.
+            let disc = sunlight(elevation_rad, 0.0, unit) / (SUN_RADIUS_RAD * SUN_RADIUS_RAD * 0.8);
+            assert!(disc.max_element() < 65_504.0 * 1.35, "{step}: {disc}");
+        }
     }
 }

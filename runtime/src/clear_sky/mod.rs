@@ -4,10 +4,12 @@
 pub mod cie;
 pub mod flares;
 pub mod galaxy;
-pub mod gradient;
+pub mod ground;
 pub mod light;
 #[cfg(feature = "perez")]
 pub mod perez;
 pub mod skybox;
 pub mod stars;
 pub mod sun;
+pub mod table;
+pub(crate) mod view_texture;

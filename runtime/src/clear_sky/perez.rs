@@ -17,11 +17,11 @@
 //! - the user.
 //!
 //! # Changes versus the papers
-//! - The absolute level comes from the pack's day gradient, not from the published zenith luminance: the mean
-//!   luminance of the hemisphere is the gradient's at that time, so exposure, dusk and night are the same with both
+//! - The absolute level comes from the pack's table, not from the published zenith luminance: the mean
+//!   luminance of the hemisphere is the table's at that time, so exposure, dusk and night are the same with both
 //!   models.
 //! - A sun below the horizon counts as one on it. From there to 6 degrees below, the end of civil twilight, all goes
-//!   over to the gradient, its twilight band and its lobes: Perez's data know no night.
+//!   over to the table: Perez's data know no night.
 //! - The CIE's indicatrix is `1 + c [exp(d gamma) - exp(d pi / 2)] + e cos^2 gamma`. The paper's and Preetham's have no
 //!   second exponential. Each source is followed for its own numbers; the user's are the paper's.
 //! - The standard tells luminance only. Its overcast skies (types 1 to 5) are white, D65; all others have Preetham's
@@ -31,20 +31,20 @@
 //!   gone, at the same x: `y = -3 x^2 + 2.87 x - 0.275`, D. B. Judd, D. L. MacAdam, G. Wyszecki, "Spectral
 //!   Distribution of Typical Daylight as a Function of Correlated Color Temperature", JOSA 54(8), 1964.
 //! - What lies outside BT.709 would be cut off at 0; after the step above nothing does.
-//! - The aureole stands for the gradient's lobes around the sun.
+//! - The aureole stands for the table's.
 //!
 //! # Practice
-//! Six exponentials (two steps of three), a division, an arc cosine by polynomial a pixel; the gradient is read only in
+//! Six exponentials (two steps of three), a division, an arc cosine by polynomial a pixel; the table is read only in
 //! twilight. A thousand exponentials a frame for the mean luminance, some ten microseconds. On an H100 at 1920x1080 it
-//! takes 0.14 ms more than the gradient.
+//! takes 0.14 ms more than the table.
 
 use std::f32::consts::{FRAC_PI_2, LOG2_E, PI};
 
 use glam::{Vec3, Vec4};
 
 use crate::clear_sky::cie;
-use crate::clear_sky::light::{Light, luminance};
-use crate::geometry::math::smoothstep;
+use crate::clear_sky::light::Light;
+use crate::geometry::math::{luminance, smoothstep};
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
 use crate::params::{PerezParams, PerezShape, SkyModel};
@@ -69,7 +69,7 @@ uniforms! {
     PerezUniforms {
         /// Unit direction towards the sun, or to the horizon above it.
         sun_direction: Vec3,
-        /// Weight of this model, 0 where the gradient draws alone.
+        /// Weight of this model, 0 where the table draws alone.
         weight: f32,
         /// How the horizon darkens (above 0) or brightens.
         a: Vec4,
@@ -255,6 +255,31 @@ pub fn acos(cosine: f32) -> f32 {
     if cosine < 0.0 { PI - angle } else { angle }
 }
 
+impl PerezUniforms {
+    /// Radiance along a unit direction, by the same lines as the shader's; `table` is that of the table.
+    pub fn radiance(&self, direction: Vec3, table: Vec3) -> Vec3 {
+        if self.weight == 0.0 {
+            return table;
+        }
+        let cosine = direction.dot(self.sun_direction).clamp(-1.0, 1.0);
+        let exp2 = |v: Vec3| v.map(f32::exp2);
+        let [a, b, c, d, e] = [self.a, self.b, self.c, self.d, self.e].map(Vec4::truncate);
+        let gradation = 1.0 + a * exp2(b / direction.y.max(LEAST_COSINE));
+        let aureole = c * exp2(d * acos(cosine));
+        let indicatrix = self.base.truncate() + aureole + e * (cosine * cosine);
+        let Vec3 {
+            x: level,
+            y: x,
+            z: y,
+        } = self.zenith.truncate() * gradation * indicatrix;
+        let [constant, factor, of_square] = DAYLIGHT;
+        let y = y + TO_DAYLIGHT * (constant + factor * x + of_square * x * x - y);
+        let [of_x, of_y, of_z] = RGB_OF_XYZ;
+        let linear = (of_x * x + of_y * y + of_z * (1.0 - x - y)) * (level / y);
+        table.lerp(linear.max(Vec3::ZERO), self.weight)
+    }
+}
+
 /// This model's share of the sky, over the sine of the sun's elevation.
 pub fn share(sin_elevation: f32) -> f32 {
     smoothstep(-TWILIGHT_END, 0.0, sin_elevation)
@@ -266,10 +291,14 @@ fn above_horizon(sun: Vec3) -> Vec3 {
     Vec3::new(sun.x, sun.y.max(0.0), sun.z).normalize_or(Vec3::NEG_Z)
 }
 
-/// The clear sky's share of the uniforms. `params` are in range. All is 0 where the gradient draws alone.
+/// The clear sky's share of the uniforms. `params` are in range. All is 0 where the table draws alone.
 pub fn uniforms(params: &PerezParams, model: SkyModel, light: &Light) -> PerezUniforms {
-    let share = share(light.sun_direction.y);
-    if model == SkyModel::Gradient || share == 0.0 {
+    let share = if light.is_moon {
+        0.0
+    } else {
+        share(light.sun_direction.y)
+    };
+    if model == SkyModel::Table || share == 0.0 {
         return PerezUniforms::default();
     }
     let sun = above_horizon(light.sun_direction);

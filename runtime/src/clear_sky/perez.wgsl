@@ -16,11 +16,11 @@ fn perez_rgb(sky: vec3f) -> vec3f {
     return max(linear * (sky.x / y), vec3f(0.0));
 }
 
-// The clear sky along a unit direction: Perez's by day, the gradient's by night.
+// The clear sky along a unit direction: Perez's by day, the table's by night.
 fn perez_light(direction: vec3f) -> vec3f {
     let perez = uniforms.perez;
     if perez.weight == 0.0 {
-        return gradient_light(direction);
+        return table_light(direction);
     }
     let cosine = clamp(dot(direction, perez.sun_direction), -1.0, 1.0);
     let gradation = 1.0 + perez.a.xyz * exp2(perez.b.xyz / max(direction.y, PEREZ_LEAST_COSINE));
@@ -30,5 +30,5 @@ fn perez_light(direction: vec3f) -> vec3f {
     if perez.weight == 1.0 {
         return light;
     }
-    return mix(gradient_light(direction), light, perez.weight);
+    return mix(table_light(direction), light, perez.weight);
 }

@@ -2,27 +2,33 @@
 //!
 //! # Theory
 //! Roden and Parberry, section 2: "a simple flat square". A pixel's place on it is the dot product of its
-//! direction with the screen's axes, made perpendicular to the sun.
+//! direction with the screen's axes, made perpendicular to the sun. Its disc has its real size and the radiance that follows from
+//! its irradiance: `L = E / omega`, `omega = pi r^2` for so small a disc of radius r.
 //!
 //! # Changes versus the paper
-//! Disc and glow are two channels drawn at their own sizes from one texture; the colour of both
-//! follows the time of day.
+//! There is no painted glow: the light about the sun is the sky's aureole, and on a display what a lens scatters ("glare"), as every
+//! photograph of the sun has it: `L = k 10 E / theta^3` with theta in degrees, the inner part of the veil that the eye has by J. J. Vos,
+//! "On the cause of disability glare and its dependence on glare angle, age and ocular pigmentation", 2003, of which a lens has a share k,
+//! chosen. A float target gets the light that comes from there, without it. Where a pixel is larger than the disc, the disc is drawn as
+//! large as the pixel and as much dimmer, so that its light stays the same.
 //!
 //! # Practice
-//! One or two texture reads, only inside the square; none at night.
+//! One texture read, only inside the square. By day it is some 60,000 times as bright as white: what is below 65504 at every hour fits half
+//! floats.
 
 use glam::Vec3;
 
-use crate::clear_sky::gradient;
-use crate::clear_sky::light::Light;
+use crate::clear_sky::light::{Light, SUN_RADIUS_RAD};
 use crate::geometry::camera::Rays;
-use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
 
 /// Its part of the shader.
 pub const PART: Part = Part {
-    constants: &[("SUN_HORIZON", Value::F32(HORIZON))],
+    constants: &[
+        ("SUN_HORIZON", Value::F32(HORIZON)),
+        ("SUN_GLARE_CORE", Value::F32(GLARE_CORE)),
+    ],
     structs: &[SunUniforms::WGSL],
     wgsl: include_str!("sun.wgsl"),
 };
@@ -30,40 +36,42 @@ pub const PART: Part = Part {
 uniforms! {
     /// The sun's square.
     SunUniforms {
-        /// The screen's right about the sun, over the glow's half side.
+        /// The screen's right about the sun, over half the square's side.
         right: Vec3,
-        /// The glow's half side over the disc's.
-        glow_to_disc: f32,
-        /// The same as right, upwards.
-        up: Vec3,
         /// 1 if there is a sun to draw, else 0.
         is_shown: f32,
-        /// Radiance of the disc.
+        /// The same as right, upwards.
+        up: Vec3,
+        /// Level of the texture.
+        lod: f32,
+        /// Radiance of the middle of the disc.
         disc: Vec3,
-        /// Level of the texture for the disc.
-        disc_lod: f32,
-        /// Radiance of the glow.
-        glow: Vec3,
-        /// Level of the texture for the glow.
-        glow_lod: f32,
+        /// Nothing.
+        _pad: f32,
+        /// What the lens scatters, over the inverse cube of the angle in radians.
+        glare: Vec3,
+        /// Nothing.
+        _pad3: f32,
         /// Unit direction towards what is drawn, the sun or the moon.
         direction: Vec3,
         /// Nothing.
-        _pad: f32,
+        _pad2: f32,
     }
 }
 
-/// Radius of the disc as it is drawn, in radians. The real sun's is 0.00465; pictures of skies show it
-/// about twice as large, since glare hides its edge.
-pub const DISC_RADIUS_RAD: f32 = 0.0095;
-/// Half the side of the glow's square, as a sine.
-const GLOW_HALF_SIDE: f32 = 0.21;
-/// The sun sets into haze: over this sine of elevation, above and below the horizon, it fades.
-pub const HORIZON: f32 = 0.012;
+/// The sun sets behind a horizon of this half width, as a sine: its own radius.
+pub const HORIZON: f32 = SUN_RADIUS_RAD;
 
-/// Radiance of the disc and of the glow's centre in white light.
-const DISC_RADIANCE: f32 = 12.0;
-const GLOW_RADIANCE: f32 = 1.1;
+/// Mean of the disc over its middle: that of `2/5 + 3/5 mu` (A. S. Eddington, "The Internal Constitution of the Stars", 1926, section 226).
+const MEAN_DISC: f32 = 0.8;
+
+/// The least radius of the disc as it is drawn, in pixels.
+const LEAST_RADIUS_PX: f32 = 1.0;
+
+/// What a lens scatters of what an eye does.
+const GLARE: f32 = 0.1;
+/// The square of the angle within which it grows no more: the disc's radius.
+pub const GLARE_CORE: f32 = SUN_RADIUS_RAD * SUN_RADIUS_RAD;
 
 /// The sun's share of the uniforms. `texels` is the side of the texture, `pixel_rad` that of a pixel; `shown` is
 /// whether it is drawn at all.
@@ -75,34 +83,32 @@ pub fn uniforms(
     pixel_rad: f32,
     shown: bool,
 ) -> SunUniforms {
-    // Half the disc texture's side is its edge (see the role's channel meanings).
-    let disc_half_side = 2.0 * DISC_RADIUS_RAD;
-    let level = |half_side: f32| {
-        let texel_rad = 2.0 * half_side / texels as f32;
-        (pixel_rad / texel_rad)
-            .log2()
-            .clamp(0.0, levels.saturating_sub(1) as f32)
-    };
+    let radius = SUN_RADIUS_RAD.max(LEAST_RADIUS_PX * pixel_rad);
+    // Half the texture's side is the disc's edge (see the role's channel meanings).
+    let half_side = 2.0 * radius;
+    let texel_rad = 2.0 * half_side / texels as f32;
+    let lod = (pixel_rad / texel_rad)
+        .log2()
+        .clamp(0.0, levels.saturating_sub(1) as f32);
     let (right, up) = facing_axes(light.sun_direction, rays);
-    let is_shown = if shown && light.sun_direction.y > -GLOW_HALF_SIDE {
-        1.0
-    } else {
-        0.0
-    };
-    let colour = light.sunlight;
-    let set = smoothstep(-0.16, 0.0, light.sun_direction.y);
+    let is_shown = shown && light.sun_direction.y > -2.0 * SUN_RADIUS_RAD;
+    // What lights the ground is the radiance of a white surface, E / pi. The horizon hides the disc itself.
     SunUniforms {
-        right: right / GLOW_HALF_SIDE,
-        glow_to_disc: GLOW_HALF_SIDE / disc_half_side,
-        up: up / GLOW_HALF_SIDE,
-        is_shown,
-        disc: colour * DISC_RADIANCE,
-        disc_lod: level(disc_half_side),
-        glow: colour * (GLOW_RADIANCE * set * (1.0 + gradient::low_sun(light))),
-        glow_lod: level(GLOW_HALF_SIDE),
+        right: right / half_side,
+        is_shown: if is_shown { 1.0 } else { 0.0 },
+        up: up / half_side,
+        lod,
+        disc: light.disc / (radius * radius * MEAN_DISC),
+        glare: light.ground_sunlight * (if is_shown { glare_of_white() } else { 0.0 }),
         direction: light.sun_direction,
         ..Default::default()
     }
+}
+
+/// The glare of a sun that makes a white surface's radiance 1, at one radian.
+fn glare_of_white() -> f32 {
+    let degrees_a_radian = 1.0_f32.to_degrees();
+    GLARE * 10.0 * std::f32::consts::PI / degrees_a_radian.powi(3)
 }
 
 /// Two unit vectors perpendicular to the sun's direction and to each other, the first along the

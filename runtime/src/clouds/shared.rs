@@ -7,6 +7,7 @@
 //! # Changes versus the paper
 //! - The paper's grey is display-referred; its square is taken as reflected sunlight, itself as skylight.
 //! - Cores are never black: [`CORE`] is what the paper's black becomes.
+//! - A low sun lights clouds from the side: see `cloud_facing` in the shader. The papers' clouds are lit the same on every side of the sky.
 //! - Cover above 0.8 makes an overcast: see [`overcast_weight`].
 //!
 //! # Practice
@@ -14,15 +15,20 @@
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use crate::clear_sky::light::{Light, luminance};
-use crate::geometry::math::smoothstep;
+use crate::clear_sky::light::Light;
+use crate::geometry::math::{luminance, smoothstep};
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
 
 /// Its part of the shader.
 pub const PART: Part = Part {
-    constants: &[("CLOUD_CORE", Value::F32(CORE))],
+    constants: &[
+        ("CLOUD_CORE", Value::F32(CORE)),
+        ("CLOUD_ABEAM", Value::F32(ABEAM)),
+        ("CLOUD_SIDED", Value::F32(SIDED)),
+        ("CLOUD_RIM", Value::F32(RIM)),
+    ],
     structs: &[CloudUniforms::WGSL],
     wgsl: include_str!("shared.wgsl"),
 };
@@ -46,8 +52,8 @@ uniforms! {
         sunset: f32,
         /// The sunset colour, display-referred.
         tint: Vec3,
-        /// Nothing.
-        _pad: f32,
+        /// How far light comes from the side.
+        low_sun: f32,
     }
 }
 
@@ -56,10 +62,23 @@ pub const CORE: f32 = 0.3;
 /// Sine of the elevation at which clouds have come out of the haze of the horizon, and the same of an overcast sky.
 const HAZE: [f32; 2] = [0.20, 0.08];
 
+/// Share of a low sun's light that is seen on clouds to the left and right of it, what is more away from the sun and less towards it, and
+/// what the thinnest clouds before it let through. Chosen by eye, beside photographs.
+pub const ABEAM: f32 = 0.55;
+pub const SIDED: f32 = 0.55;
+pub const RIM: f32 = 2.5;
+/// Sines of the sun's elevation from which clouds are lit from above, and below which from the side.
+const LOW_SUN: [f32; 2] = [0.5, 0.1];
+
 /// Cover from which the sky is overcast.
 const OVERCAST_FROM: f32 = 0.8;
 /// Share of sunlight that an overcast sky keeps from its own underside.
-pub(crate) const SHADE: f32 = 0.4;
+const SHADE: f32 = 0.75;
+
+/// What a dense overcast takes of all light: a storm is thick.
+const DENSE: f32 = 0.8;
+/// Share of skylight that it keeps.
+const OVERCAST_AMBIENT: f32 = 0.7;
 
 /// Wind at speed 1 in heights of the layer a second: 2.3 degrees a second overhead.
 pub(crate) const MAX_WIND: f64 = 0.04;
@@ -114,12 +133,14 @@ pub fn uniforms(params: &SkyParams, light: &Light, texels: u32) -> CloudUniforms
         // Half a texel is kept from the ends: the texture repeats, and its ends are far apart.
         gradient_start: half_texel,
         gradient_span: 1.0 - 2.0 * half_texel,
-        sunlight: light.sunlight * (1.0 - SHADE * overcast_weight),
+        sunlight: light.sunlight * underside_light(params),
         haze_scale: 1.0 / (HAZE[0] + (HAZE[1] - HAZE[0]) * overcast_weight),
-        ambient: ambient(light.skylight),
-        sunset: params.sunset,
+        ambient: ambient(light, overcast_weight) * let_through(params),
+        // The gradient is about the sun.
+        sunset: if light.is_moon { 0.0 } else { params.sunset },
         tint: SUNSET_TINT,
-        ..Default::default()
+        low_sun: smoothstep(LOW_SUN[0], LOW_SUN[1], light.sun_direction.y)
+            * (1.0 - overcast_weight),
     }
 }
 
@@ -129,9 +150,26 @@ pub(crate) fn radiance(clouds: &CloudUniforms, grey: f32) -> Vec3 {
     bright * (bright * clouds.sunlight + clouds.ambient)
 }
 
+/// `cloud_facing` of the shader, by the cosine of a direction to the sun.
+pub(crate) fn facing(clouds: &CloudUniforms, cosine: f32, opacity: f32) -> f32 {
+    let thin = 1.0 - opacity;
+    let rim = RIM * thin * thin * cosine.max(0.0).powi(4);
+    1.0 + (ABEAM - SIDED * cosine + rim - 1.0) * clouds.low_sun
+}
+
 /// How overcast the sky is at a cover, 0..1: an overcast has no holes.
 pub fn overcast_weight(cover: f32) -> f32 {
     smoothstep(OVERCAST_FROM, 1.0, cover)
+}
+
+/// What the density of an overcast lets through, 0..1.
+pub(crate) fn let_through(params: &SkyParams) -> f32 {
+    1.0 - DENSE * overcast_weight(params.cover) * params.density
+}
+
+/// Share of sunlight that clouds show from below.
+pub(crate) fn underside_light(params: &SkyParams) -> f32 {
+    (1.0 - SHADE * overcast_weight(params.cover)) * let_through(params)
 }
 
 /// `cloud_soften` of the shader.
@@ -171,9 +209,14 @@ fn sun_azimuth(sun: Vec3) -> Vec2 {
     Vec2::new(sun.x, sun.z).normalize_or(Vec2::Y)
 }
 
-/// Skylight on clouds: less blue than the sky, as the ground and other clouds add to it.
-fn ambient(skylight: Vec3) -> Vec3 {
-    Vec3::splat(luminance(skylight)).lerp(skylight, 0.6)
+/// Skylight on clouds: less blue than the sky, as the ground and other clouds add to it. An overcast hides the sky: what comes through
+/// it is of the colour of all the light above, and less.
+fn ambient(light: &Light, overcast_weight: f32) -> Vec3 {
+    let level = luminance(light.skylight);
+    let clear = Vec3::splat(level).lerp(light.skylight, 0.6);
+    let all = light.ground_sunlight * light.sun_direction.y.max(0.0) + light.sky_on_ground;
+    let shut = all * (OVERCAST_AMBIENT * level / luminance(all).max(1e-9));
+    clear.lerp(shut, overcast_weight)
 }
 
 /// The opacity above which a direction counts as covered.
@@ -188,8 +231,14 @@ mod tests {
         let light = Light {
             sun_direction: Vec3::Y,
             sunlight: Vec3::ONE,
+            ground_sunlight: Vec3::ONE,
+            disc: Vec3::ONE,
             skylight: Vec3::ZERO,
+            sky_on_ground: Vec3::ZERO,
             night: 0.0,
+            dark: 1.0,
+            unit_cd_m2: 32_000.0,
+            is_moon: false,
         };
         let sunlight = |cover: f32| {
             let params = SkyParams {
@@ -200,7 +249,9 @@ mod tests {
         };
         assert_eq!((overcast_weight(0.8), overcast_weight(1.0)), (0.0, 1.0));
         assert_eq!((sunlight(0.3), sunlight(0.8)), (1.0, 1.0));
-        assert_eq!(sunlight(1.0), 1.0 - SHADE);
+        // At the default density.
+        let thick = 1.0 - DENSE * SkyParams::default().density;
+        assert_eq!(sunlight(1.0), (1.0 - SHADE) * thick);
     }
 
     #[test]

@@ -1,11 +1,22 @@
 // What the clouds of every method share: light, sunset tint, haze. CPU part: shared.rs.
 
+// Share of sunlight that a cloud of an opacity sends back along a direction. A low sun lights clouds from the side: away from it one
+// sees their lit sides, towards it their dark ones, with rims that let its light through.
+fn cloud_facing(direction: vec3f, opacity: f32) -> f32 {
+    let cosine = dot(direction, uniforms.sky.sun_direction);
+    let ahead = max(cosine, 0.0);
+    let ahead_squared = ahead * ahead;
+    let thin = 1.0 - opacity;
+    let rim = CLOUD_RIM * thin * thin * ahead_squared * ahead_squared;
+    return mix(1.0, CLOUD_ABEAM - CLOUD_SIDED * cosine + rim, uniforms.clouds.low_sun);
+}
+
 // Display-referred grey, as the papers compute it, to radiance: sunlight reaches the bright parts,
 // the light of the sky the dark ones too. The darkest cores still scatter some of both.
-fn cloud_light(grey: vec3f) -> vec3f {
+fn cloud_light(grey: vec3f, facing: f32) -> vec3f {
     let clouds = uniforms.clouds;
     let bright = CLOUD_CORE + (1.0 - CLOUD_CORE) * grey;
-    return bright * (bright * clouds.sunlight + clouds.ambient);
+    return bright * ((bright * facing) * clouds.sunlight + clouds.ambient);
 }
 
 // Display-referred colour of a grey under the sunset tint. Unlike the paper's lines 26-27, which go over to one

@@ -77,9 +77,10 @@ pub(crate) fn written(format: wgpu::TextureFormat) -> Option<Output> {
     }
 }
 
-/// One step of the target's encoding.
+/// One step of the target's encoding, 0 for one of radiance.
 pub fn step(format: wgpu::TextureFormat) -> f32 {
     match format {
+        _ if written(format) == Some(Output::Radiance) => 0.0,
         wgpu::TextureFormat::Rgb10a2Unorm => 1.0 / 1023.0,
         wgpu::TextureFormat::Rgba16Unorm => 1.0 / 65535.0,
         _ => 1.0 / 255.0,

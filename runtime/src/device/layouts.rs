@@ -3,14 +3,16 @@
 use welkin_pack::Role;
 
 /// Bindings of the textures, as frame.wgsl declares them.
-pub(crate) const TEXTURES: [(u32, Role); 6] = [
+pub(crate) const TEXTURES: [(u32, Role); 5] = [
     (3, Role::Clouds),
     (4, Role::Stars),
     (5, Role::Galaxy),
-    (6, Role::Sky),
     (7, Role::Sun),
     (8, Role::Flares),
 ];
+
+/// Binding of the clear sky of the moment.
+pub(crate) const SKY_BINDING: u32 = 6;
 
 /// Binding of the skybox, the only cube.
 pub(crate) const SKYBOX_BINDING: u32 = 9;
@@ -207,6 +209,7 @@ fn shared_layout(device: &wgpu::Device, uniform_bytes: u64) -> wgpu::BindGroupLa
     entries.extend(
         TEXTURES.map(|(binding, role)| entry(binding, texture(role != Role::Stars, plane))),
     );
+    entries.push(entry(SKY_BINDING, texture(true, plane)));
     entries.push(entry(SKYBOX_BINDING, texture(true, cube)));
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("sky, shared"),

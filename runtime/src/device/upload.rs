@@ -3,7 +3,7 @@
 use welkin_pack::{Format, Pack, Role, Shape, Texture};
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
-use super::layouts::{Layouts, SKYBOX_BINDING, TEXTURES};
+use super::layouts::{Layouts, SKY_BINDING, SKYBOX_BINDING, TEXTURES};
 use crate::device::layouts::array_layers;
 use crate::error::{SkyError, texture};
 
@@ -100,13 +100,14 @@ fn format(texture: &Texture) -> wgpu::TextureFormat {
     }
 }
 
-/// Group 0: uniforms, samplers and the textures that every method may read.
+/// Group 0: uniforms, samplers and the textures that every method may read. `sky` is the clear sky of the moment.
 pub(crate) fn shared_group(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     pack: &Pack,
     layouts: &Layouts,
     buffer: &wgpu::Buffer,
+    sky: &wgpu::Texture,
 ) -> Result<wgpu::BindGroup, SkyError> {
     let samplers = [wgpu::AddressMode::Repeat, wgpu::AddressMode::ClampToEdge]
         .map(|mode| sampler(device, mode));
@@ -115,6 +116,7 @@ pub(crate) fn shared_group(
         let texture = upload(device, queue, pack, role)?;
         views.push((binding, texture.create_view(&Default::default())));
     }
+    views.push((SKY_BINDING, sky.create_view(&Default::default())));
     let skybox = upload_skybox(device, queue, pack)?;
     let cube = skybox.create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(wgpu::TextureViewDimension::Cube),

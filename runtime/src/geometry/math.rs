@@ -1,9 +1,19 @@
 //! Functions that several passes share.
 
+use glam::Vec3;
+
 /// WGSL's smoothstep.
 pub(crate) fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
     let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
+}
+
+/// What red, green and blue of linear BT.709 add to luminance. ITU-R BT.709-6, 2015, item 3.2.
+pub const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+
+/// Luminance of linear BT.709.
+pub fn luminance(colour: Vec3) -> f32 {
+    colour.dot(LUMINANCE)
 }
 
 /// Slope and bend of Page's approximation of the normal distribution: `share = (1 + tanh(slope z (1 + bend z^2))) / 2`, with

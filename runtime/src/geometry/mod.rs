@@ -2,6 +2,7 @@
 
 pub mod camera;
 pub mod dome;
+pub mod harmonics;
 pub mod math;
 pub mod part;
 pub mod uniforms;

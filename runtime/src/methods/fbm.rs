@@ -52,6 +52,11 @@ impl CloudMethod for Fbm {
         fbm::overcast(&uniforms.fbm, &uniforms.clouds)
     }
 
+    fn mean(&self, _params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
+        let spread = map::mean_and_spread(&pack.fbm).1;
+        coverage::mean(&uniforms.fbm, &uniforms.clouds, spread)
+    }
+
     fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32 {
         coverage::covered(&shown.texels.fbm, &shown.uniforms.fbm, opacity)
     }

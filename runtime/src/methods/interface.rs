@@ -52,11 +52,6 @@ pub(crate) trait CloudMethod: Sync {
     /// Writes its share of the uniforms. What all clouds share is there already.
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>);
 
-    /// What lights its clouds: the sun, unless it knows the moon.
-    fn luminary(&self, light: &Light, _params: &SkyParams) -> Light {
-        *light
-    }
-
     /// Light of the sun on its clouds.
     fn sunlight(&self, uniforms: &Uniforms) -> Vec3 {
         uniforms.clouds.sunlight
@@ -69,6 +64,15 @@ pub(crate) trait CloudMethod: Sync {
 
     /// Radiance of an overcast far away, where single clouds cannot be told apart.
     fn overcast(&self, uniforms: &Uniforms, pack: &PackData) -> Vec3;
+
+    /// Share of the sunlight of [`CloudMethod::mean`] that its clouds send along a unit direction.
+    fn facing(&self, uniforms: &Uniforms, direction: Vec3, opacity: f32) -> f32 {
+        let cosine = direction.dot(uniforms.sky.sun_direction);
+        shared::facing(&uniforms.clouds, cosine, opacity)
+    }
+
+    /// Mean opacity of its clouds away from the haze of the horizon, and their mean radiance where [`CloudMethod::facing`] is 1.
+    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3);
 
     /// The fraction of the sky in which its clouds have more than this opacity.
     fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32;

@@ -4,7 +4,6 @@ use glam::Vec3;
 use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
-use crate::clear_sky::light::{Light, luminary};
 use crate::clouds::lit::{self, coverage, map, shadow};
 use crate::device::context::Context;
 use crate::device::layouts::Layouts;
@@ -53,16 +52,21 @@ impl CloudMethod for Lit {
         uniforms.shadow = shadow::uniforms(params, &frame.view, &uniforms.lit);
     }
 
-    fn luminary(&self, light: &Light, params: &SkyParams) -> Light {
-        luminary(light, params.lit.moon)
-    }
-
     fn sunlight(&self, uniforms: &Uniforms) -> Vec3 {
         uniforms.lit.light
     }
 
     fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
         lit::overcast(&uniforms.lit)
+    }
+
+    fn facing(&self, uniforms: &Uniforms, direction: Vec3, opacity: f32) -> f32 {
+        lit::facing(&uniforms.lit, &uniforms.clouds, direction, opacity)
+    }
+
+    fn mean(&self, _params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> (f32, Vec3) {
+        let opacity = coverage::mean_opacity(&uniforms.lit);
+        (opacity, lit::mean_radiance(&uniforms.lit))
     }
 
     fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32 {

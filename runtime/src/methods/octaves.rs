@@ -48,6 +48,13 @@ impl CloudMethod for Octaves {
         octaves::overcast(&uniforms.octaves, &uniforms.clouds)
     }
 
+    fn mean(&self, _params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
+        (
+            coverage::mean_opacity(&uniforms.octaves),
+            self.overcast(uniforms, pack),
+        )
+    }
+
     fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32 {
         coverage::covered(&shown.uniforms.octaves, opacity)
     }

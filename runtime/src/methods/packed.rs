@@ -8,6 +8,7 @@ use crate::clouds::packed;
 use crate::frame::Uniforms;
 use crate::geometry::part::Part;
 use crate::pack_data::PackData;
+use crate::params::SkyParams;
 
 pub(super) struct Packed;
 
@@ -31,6 +32,10 @@ impl CloudMethod for Packed {
 
     fn overcast(&self, uniforms: &Uniforms, pack: &PackData) -> Vec3 {
         packed::overcast(&uniforms.packed, &uniforms.clouds, pack.cloud_means)
+    }
+
+    fn mean(&self, _params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
+        packed::coverage::mean(&uniforms.packed, &uniforms.clouds, &pack.cloud_texels)
     }
 
     fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32 {

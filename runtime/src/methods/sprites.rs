@@ -4,12 +4,15 @@ use glam::Vec3;
 use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MethodFrame, Shown};
-use crate::clouds::packed;
+use crate::clouds::{packed, shared};
 use crate::frame::Uniforms;
 use crate::geometry::part::Part;
 use crate::pack_data::PackData;
 use crate::params::SkyParams;
 use crate::sprites::{self, pipelines, ring};
+
+/// Radiance of separate clouds over that of a sheet.
+const HEAPS: f32 = 0.7;
 
 pub(super) struct Sprites;
 
@@ -34,8 +37,16 @@ impl CloudMethod for Sprites {
 
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
         let (hours, flash) = (&frame.pack.hours, frame.flash);
-        uniforms.sprites =
-            sprites::uniforms(frame.clamped, &frame.view, &frame.light, hours, flash);
+        // Not those of the dome behind, which has a cover of its own.
+        let clouds = shared::uniforms(frame.clamped, &frame.light, frame.view.texels);
+        uniforms.sprites = sprites::uniforms(
+            frame.clamped,
+            &frame.view,
+            &frame.light,
+            &clouds,
+            hours,
+            flash,
+        );
     }
 
     fn overcast_weight(&self, params: &SkyParams, viewer_m: f32, pack: &PackData) -> f32 {
@@ -44,6 +55,19 @@ impl CloudMethod for Sprites {
 
     fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
         sprites::overcast(&uniforms.sprites)
+    }
+
+    // They have their own sides.
+    fn facing(&self, _uniforms: &Uniforms, _direction: Vec3, _opacity: f32) -> f32 {
+        1.0
+    }
+
+    // From the ground clouds in space hide more of the sky than they stand over.
+    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
+        let open = 1.0 - params.cover * params.sprites.formation;
+        // Single heaps show more of their dark bases than a sheet does: measured.
+        let heaps = HEAPS + (1.0 - HEAPS) * shared::overcast_weight(params.cover);
+        (1.0 - open.powf(1.25), self.overcast(uniforms, pack) * heaps)
     }
 
     // The field's clouds are ranked by the fraction of the ground that they cover.

@@ -162,16 +162,16 @@ mod tests {
             let text = serde_json::to_string(&one).unwrap();
             assert_eq!(serde_json::from_str::<SkyParams>(&text).unwrap(), one);
         }
-        let some = serde_json::from_str::<SkyParams>("{\"cover\":0.1,\"lit\":{\"moon\":0.5}}");
+        let some = serde_json::from_str::<SkyParams>("{\"cover\":0.1,\"lit\":{\"k1\":0.5}}");
         let mut wanted = SkyParams::default();
-        (wanted.cover, wanted.lit.moon) = (0.1, 0.5);
+        (wanted.cover, wanted.lit.k1) = (0.1, 0.5);
         assert_eq!(some.unwrap(), wanted);
     }
 
     #[test]
     fn fields_are_named_by_their_paths() {
         let of = |name: &str| SETTINGS.iter().find(|s| s.words.name == name).unwrap();
-        assert_eq!(of("moon").numbers()[0].field, "lit.moon");
+        assert_eq!(of("k1").numbers()[0].field, "lit.k1");
         assert_eq!(of("domes").numbers()[2].field, "octaves.domes[2]");
         assert_eq!(
             of("layers").numbers()[23].field,

@@ -39,8 +39,6 @@ pub struct LitParams {
     pub m: f32,
     /// Seconds in which a cloud forms or dissolves, 1..=86400.
     pub formation_interval_s: f32,
-    /// Strength of the full moon's light on clouds, 0..=1; it stands opposite the sun.
-    pub moon: f32,
 }
 
 /// A layer of clouds of one kind.
@@ -114,7 +112,6 @@ impl Default for LitParams {
             k2: 0.68,
             m: 3.5,
             formation_interval_s: 240.0,
-            moon: 1.0,
         }
     }
 }

@@ -108,10 +108,10 @@ impl Method {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum SkyModel {
-    /// The pack's day gradient, with light scattered around the sun. See [`crate::clear_sky::gradient`].
+    /// The pack's table of the clear sky. See [`crate::clear_sky::table`].
     #[default]
-    Gradient,
-    /// The distribution of Perez and others, in colour, as bright as the gradient. See [`crate::clear_sky::perez`].
+    Table,
+    /// The distribution of Perez and others, in colour, as bright as the table. See [`crate::clear_sky::perez`].
     #[cfg(feature = "perez")]
     Perez,
 }
@@ -119,7 +119,7 @@ pub enum SkyModel {
 impl SkyModel {
     /// Every model, in the order of their numbers.
     pub const ALL: [SkyModel; 1 + cfg!(feature = "perez") as usize] = [
-        SkyModel::Gradient,
+        SkyModel::Table,
         #[cfg(feature = "perez")]
         SkyModel::Perez,
     ];
@@ -127,7 +127,7 @@ impl SkyModel {
     /// The name on command lines and in settings.
     pub const fn name(self) -> &'static str {
         match self {
-            SkyModel::Gradient => "gradient",
+            SkyModel::Table => "table",
             #[cfg(feature = "perez")]
             SkyModel::Perez => "perez",
         }
@@ -136,7 +136,7 @@ impl SkyModel {
     /// What it is, in a few words.
     pub const fn title(self) -> &'static str {
         match self {
-            SkyModel::Gradient => "The pack's day gradient, with light scattered around the sun",
+            SkyModel::Table => "The pack's table: air, aerosol and ozone at any hour",
             #[cfg(feature = "perez")]
             SkyModel::Perez => {
                 "Perez's distribution of light around sun and zenith, in Preetham's colours"

@@ -39,6 +39,8 @@ pub struct SkyParams {
     pub exposure: f32,
     /// A person's correction of it in stops, -16..=16: the radiance is multiplied by [`SkyParams::exposure_factor`].
     pub exposure_ev: f32,
+    /// Whether [`SkyParams::exposure`] is the one that a camera would choose, [`crate::SkyLight::exposure`], instead of a number.
+    pub auto_exposure: bool,
     /// The tone curve.
     pub tonemap: Tonemap,
     /// Whether targets of few bits are dithered by half a step.
@@ -62,7 +64,13 @@ pub struct SkyParams {
     /// Side of the square around the viewer whose cloud shadows [`crate::Sky::shadow`] gives, in metres, 0..=1000000; 0 for none.
     /// Of [`Method::Lit`] alone.
     pub shadow_extent_m: f32,
-    /// Whether the sun's disc and glow are drawn.
+    /// How hazy the air is: 0 as the pack's clear air, 1 as its hazy air.
+    pub haze: f32,
+    /// Strength of the full moon's light, 0..=1; it stands opposite the sun.
+    pub moon: f32,
+    /// Share of red, green and blue light that the ground reflects, linear BT.709, 0..=1 each.
+    pub ground: [f32; 3],
+    /// Whether the sun's disc is drawn.
     pub sun: bool,
     /// Whether stars and galaxy are drawn.
     pub stars: bool,
@@ -77,7 +85,10 @@ pub struct SkyParams {
     pub skybox: f32,
 }
 
-/// The largest [`SkyParams::exposure`]: six stops over the default.
+/// Grassland, as bright as the ground that the pack's sky was baked over: a tenth of the visible light.
+const GROUND: [f32; 3] = [0.102, 0.103, 0.076];
+
+/// The largest [`SkyParams::exposure`]: some four and a half stops over the default.
 pub const MAX_EXPOSURE: f32 = 64.0;
 /// Range of [`SkyParams::exposure_ev`]: half floats, which packs and targets hold radiance in, end just below `2^16`, and what they hold can be
 /// brought to 1.
@@ -94,11 +105,12 @@ impl Default for SkyParams {
             speed: 0.1,
             time: 0.5,
             upper_layer: 0.0,
-            exposure: 1.0,
+            exposure: 2.6,
             exposure_ev: 0.0,
+            auto_exposure: false,
             tonemap: Tonemap::default(),
             dither: true,
-            sky: SkyModel::Gradient,
+            sky: SkyModel::Table,
             perez: PerezParams::default(),
             method: Method::Packed,
             octaves: OctaveParams::default(),
@@ -107,10 +119,13 @@ impl Default for SkyParams {
             sprites: SpriteParams::default(),
             weather: WeatherParams::default(),
             shadow_extent_m: 0.0,
+            haze: 0.0,
+            moon: 1.0,
+            ground: GROUND,
             sun: true,
             stars: true,
             even_stars: false,
-            flare: 1.0,
+            flare: 0.0,
             starburst: false,
             skybox: 1.0,
         }

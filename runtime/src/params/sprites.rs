@@ -18,6 +18,8 @@ pub struct SpriteParams {
     /// Distance beyond which a cloud is one billboard, in metres, 2000..=60000. By default it is so where a cloud of a kilometre has hardly more
     /// than a dozen texels in a picture of the ring.
     pub billboards_beyond_m: f32,
+    /// Whether light on clouds is that of the field's hours, as the article has it, not that of the sky.
+    pub hours: bool,
     /// The most that a cloud may have formed, 0 (nothing) to 1 (whole).
     pub formation: f32,
 }
@@ -33,6 +35,7 @@ impl Default for SpriteParams {
             distance_m: 30_000.0,
             ring_radius_m: 12_000.0,
             billboards_beyond_m: 24_000.0,
+            hours: false,
             formation: 1.0,
         }
     }

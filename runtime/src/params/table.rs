@@ -113,8 +113,6 @@ pub const SETTINGS: &[Setting] = settings! {
             = plain!(lit.k2, UNIT).of(LIT).value("K");
         "m" "Narrowness (m)" "How narrow the shine around the sun is and how fast shade deepens"
             = plain!(lit.m, [0.5, 16.0]).of(LIT).value("M");
-        "moon" "Moon" "Strength of the full moon's light on clouds"
-            = plain!(lit.moon, UNIT).of(LIT).value("S");
         "lit-interval" "Formation" "Seconds in which clouds form anew"
             = plain!(lit.formation_interval_s, [1.0, 86_400.0]).unit("seconds", " seconds").logarithmic()
                 .of(LIT).shared("formation-interval").value("SECONDS");
@@ -129,12 +127,19 @@ pub const SETTINGS: &[Setting] = settings! {
                 .of(SPRITES).value("M").range_said();
         "billboards" "Billboards" "Distance beyond which a cloud is one billboard, in metres"
             = plain!(sprites.billboards_beyond_m, [2000.0, MOST_DISTANCE_M]).unit("metres", " metres").of(SPRITES).value("M");
+        "hours" "Hours of the field" "Whether sprites are lit by the field's table of hours, as painted, not by the sky"
+            = switch("hours", |params: &mut SkyParams| &mut params.sprites.hours).of(SPRITES)
+                .command_help("Light sprites by the field's table of hours, as painted, not by the sky");
         "formation" "Formed" "The most that clouds have formed, 0 (nothing) to 1 (whole)"
             = plain!(sprites.formation, UNIT).of(SPRITES).value("F").range_said();
     }
     Air {
         "sky" "Sky model" "How the clear sky is computed"
             = text(choice(&text::MODELS), text::model, text::set_model);
+        "haze" "Haze" "Haze in the air: 0 as the pack's clear air, 1 as its hazy air"
+            = plain!(haze, UNIT).value("H").range_said().blends();
+        "ground" "Ground" "Share of light that the ground reflects, linear, each 0 to 1"
+            = three!(ground, Input::Colour).value("R,G,B").range_said().default_said(INLINE).blends();
         "turbidity" "Turbidity" "Haze in the air, 1.7 (clear) to 10 (thick)"
             = plain!(perez.turbidity, TURBIDITY).when(text::has_haze).value("T").range_said();
         "cie" "Standard sky" "Luminance of a standard sky of ISO 15469, 1 (overcast) to 12 (clear) to 15"
@@ -145,8 +150,11 @@ pub const SETTINGS: &[Setting] = settings! {
                 .optional(text::clear_perez).when(text::is_perez).value("A,B,C,D,E").default_said(BY_TURBIDITY);
     }
     Light {
-        "sun" "Sun" "The sun's disc and glow"
-            = switch("no-sun", |params: &mut SkyParams| &mut params.sun).command_help("Leave out the sun's disc and glow");
+        "sun" "Sun" "The sun's disc"
+            = switch("no-sun", |params: &mut SkyParams| &mut params.sun)
+                .command_help("Leave out the sun's disc, as a map beside a sun lamp wants it");
+        "moon" "Moon" "Strength of the full moon's light"
+            = plain!(moon, UNIT).value("S");
         "stars" "Stars" "Stars and galaxy"
             = switch("no-stars", |params: &mut SkyParams| &mut params.stars).command_help("Leave out stars and galaxy");
         "flare" "Lens flare" "Strength of the lens flare, 0 (off) to 1"
@@ -166,6 +174,9 @@ pub const SETTINGS: &[Setting] = settings! {
     Camera {
         "exposure-ev" "Exposure" "Exposure of the picture in stops: each is twice as bright"
             = plain!(exposure_ev, EXPOSURE_EV).unit("stops", " stops").value("EV");
+        "auto-exposure" "Automatic exposure" "Whether the exposure follows the light of the sky, as a camera's does"
+            = switch("auto-exposure", |params: &mut SkyParams| &mut params.auto_exposure)
+                .command_help("Expose as a camera would, by the light of the sky");
         "tonemap" "Tone curve" "How radiance becomes colour on a display"
             = text(choice(&text::TONEMAPS), text::tonemap, text::set_tonemap);
     }

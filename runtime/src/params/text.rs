@@ -174,7 +174,7 @@ pub fn clear_perez(params: &mut SkyParams) {
 }
 
 pub fn is_perez(params: &SkyParams) -> bool {
-    params.sky != SkyModel::Gradient
+    params.sky != SkyModel::Table
 }
 
 /// Whether the haze of the air says anything: overcast skies are white.

@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
-use crate::clear_sky::light::Light;
+use crate::clear_sky::light::LitSky;
 #[cfg(feature = "perez")]
 use crate::clear_sky::perez;
-use crate::clear_sky::{flares, galaxy, gradient, skybox, stars, sun};
+use crate::clear_sky::{flares, galaxy, ground, skybox, stars, sun, table};
 use crate::clouds::shared::{self, CloudView};
 use crate::device::pipeline::Variant;
 use crate::frame::Uniforms;
@@ -20,8 +20,11 @@ use crate::tonemap;
 #[cfg(feature = "weather")]
 use crate::weather::{lightning, rain, rays};
 
+/// How much brighter the densest overcast is at the horizon than above: chosen.
+const SLIT: f32 = 1.3;
+
 impl PackData {
-    /// The uniforms of one frame: a pure function. `step` is one step of the target's encoding.
+    /// The uniforms of one frame: a pure function. `step` is one step of the target's encoding, 0 for a target of radiance.
     ///
     /// Parameters are clamped, seconds that are not finite are 0.
     pub fn uniforms(
@@ -31,10 +34,22 @@ impl PackData {
         seconds: f64,
         step: f32,
     ) -> Uniforms {
-        let clamped = params.clamped();
+        let clamped = self.exposed(params.clamped(), seconds);
+        let lit = self.lit_sky(&clamped);
+        self.uniforms_under(&lit, &clamped, camera, seconds, step)
+    }
+
+    /// The same with the light of the moment. `clamped` are in range.
+    pub(crate) fn uniforms_under(
+        &self,
+        lit: &LitSky,
+        clamped: &SkyParams,
+        camera: &Camera,
+        seconds: f64,
+        step: f32,
+    ) -> Uniforms {
         let params = clamped.dome();
-        let dome = params.method.clouds();
-        let light = Light::new(&self.sky, self.noon_elevation_rad, params.time);
+        let light = lit.light;
         let night = if params.stars { light.night } else { 0.0 };
         let (rays, pixel_rad) = (camera.rays(), camera.pixel_rad());
         let pixel = pixel_rad[0].max(pixel_rad[1]);
@@ -52,7 +67,7 @@ impl PackData {
         };
         let frame = MethodFrame {
             params: &params,
-            clamped: &clamped,
+            clamped,
             view,
             light,
             flash: Vec3::ZERO,
@@ -70,32 +85,57 @@ impl PackData {
         Method::Sprites.clouds().write(&mut uniforms, &frame);
 
         let shown = clamped.method.clouds();
-        let overcast_weight = shown.overcast_weight(&clamped, view.place_m.y as f32, self);
+        let overcast_weight = shown.overcast_weight(clamped, view.place_m.y as f32, self);
         let overcast = shown.overcast(&uniforms, self);
-        uniforms.sky = gradient::uniforms(
-            &light,
-            &self.sky,
-            params.time,
+        uniforms.sky = table::uniforms(
+            &lit.view,
+            light.sun_direction,
             night,
             overcast,
             overcast_weight,
+            SLIT * params.density * overcast_weight,
+        );
+        // Clouds take their share of the sunlight, and what they give instead is the light of an overcast.
+        uniforms.ground = ground::uniforms(
+            params.ground.into(),
+            ground::GroundLight {
+                sky: light.sky_on_ground.lerp(overcast, overcast_weight),
+                sun: light.ground_sunlight * (1.0 - overcast_weight),
+                sun_sin: light.sun_direction.y,
+                shut: overcast_weight,
+            },
+            ground::Noise {
+                texels: self.clouds_texels,
+                mean: self.cloud_means[2],
+            },
+            view.place_m,
+            pixel,
+            self.sky.aerosol_depth(params.haze),
         );
         #[cfg(feature = "perez")]
         {
             uniforms.perez = perez::uniforms(&params.perez, params.sky, &light);
         }
-        let luminary = dome.luminary(&light, &params);
-        uniforms.sun = sun::uniforms(&luminary, &rays, self.sun.0, self.sun.1, pixel, params.sun);
+        uniforms.sun = sun::uniforms(&light, &rays, self.sun.0, self.sun.1, pixel, params.sun);
+        if step == 0.0 {
+            // A lens's glare is the display's affair.
+            uniforms.sun.glare = Vec3::ZERO;
+        }
         uniforms.stars = stars::uniforms(
             self.stars,
             &self.star_units,
             pixel_rad,
-            night,
+            night * light.dark,
             params.even_stars,
             view.seconds,
         );
         let [_, noise, detail] = self.cloud_means;
-        uniforms.galaxy = galaxy::uniforms(night, [noise, detail], self.clouds_texels, pixel);
+        uniforms.galaxy = galaxy::uniforms(
+            night * light.dark,
+            [noise, detail],
+            self.clouds_texels,
+            pixel,
+        );
         // Without a skybox the shader does not read one.
         let (face, levels) = self.skybox.unwrap_or((1, 1));
         uniforms.skybox = skybox::uniforms(params.skybox, face, levels, pixel);

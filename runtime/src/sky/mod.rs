@@ -5,13 +5,18 @@
 //! and its map, is made when that method is first prepared or [`Sky::load`]ed, and kept. Draw after the opaque scene:
 //! pixels that the scene covers then cost nothing.
 
+pub mod air;
 mod evaluate;
+mod light;
 mod method_pipelines;
 
+pub use self::light::{Luminary, SkyLight};
 use welkin_pack::{Pack, Role};
 use wgpu::util::DeviceExt;
 
 use crate::clear_sky::flares;
+use crate::clear_sky::table::SkyView;
+use crate::clear_sky::view_texture::ViewTexture;
 #[cfg(feature = "lit")]
 use crate::clouds::lit::shadow::{self, Shadow};
 use crate::device::config::{SkyConfig, output, step};
@@ -41,6 +46,7 @@ pub struct Sky {
     context: Context,
     shared: wgpu::BindGroup,
     buffer: wgpu::Buffer,
+    view: ViewTexture,
     /// Bytes that each method's own textures of the pack have, at its place in [`Method::ALL`].
     pack_bytes: [u64; Method::ALL.len()],
     pack_data: PackData,
@@ -150,8 +156,17 @@ impl Sky {
             compose: parts::text,
             layouts,
         };
+        let view = ViewTexture::new(device, SkyView::image_size(&pack_data.sky));
         Ok(Sky {
-            shared: shared_group(device, queue, pack, &context.layouts, &buffer)?,
+            shared: shared_group(
+                device,
+                queue,
+                pack,
+                &context.layouts,
+                &buffer,
+                &view.texture,
+            )?,
+            view,
             pack_bytes: Method::ALL.map(|method| bytes(method.clouds().role())),
             step: step(config.target_format),
             dome: dome_step_deg.map(|step| dome_buffers(device, step)),
@@ -222,11 +237,12 @@ impl Sky {
         camera: &Camera,
         seconds: f64,
     ) {
-        let clamped = params.clamped();
+        let clamped = self.pack_data.exposed(params.clamped(), seconds);
         let params = clamped.dome();
-        let uniforms = self
-            .pack_data
-            .uniforms(&clamped, camera, seconds, self.step);
+        let lit = self.pack_data.lit_sky(&clamped);
+        self.view.write(queue, &lit.view);
+        let data = &self.pack_data;
+        let uniforms = data.uniforms_under(&lit, &clamped, camera, seconds, self.step);
         let seconds = finite(seconds);
         #[cfg(feature = "sprites")]
         let uniforms = self.record_sprites(queue, encoder, &clamped, camera, seconds, uniforms);
@@ -288,6 +304,19 @@ impl Sky {
             uniforms.flares.strength *= self.sprites.clear_towards_sun(&frame, sun);
         }
         uniforms
+    }
+
+    /// The light that this sky gives to a scene: sun, moon and ambient light, horizon and exposure. The device is not asked, and no frame need be
+    /// prepared.
+    ///
+    /// Clouds count by their mean at these parameters; rain, lightning, rays, a skybox and stars do not.
+    pub fn light(&self, params: &SkyParams, seconds: f64) -> SkyLight {
+        self.pack_data.light(params, seconds)
+    }
+
+    /// Parameters with the exposure that is drawn with: what [`SkyParams::auto_exposure`] finds, if it is on.
+    pub fn exposed(&self, params: &SkyParams, seconds: f64) -> SkyParams {
+        self.pack_data.exposed(params.clamped(), seconds)
     }
 
     /// Draws the prepared frame into a pass whose attachments are as the configuration said.

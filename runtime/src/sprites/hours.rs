@@ -1,11 +1,58 @@
-//! Light on clouds at a moment of the day, from the pack's table.
+//! Light on clouds at a moment of the day, from the sky or from the pack's table.
 //!
 //! # Theory
 //! Wang, "Shading": for a range of times an artist gives a factor on the ambient colours, the most colour that the sun adds, and
 //! the least and the most share of it. Between two times each number is interpolated; after the last comes the first.
+//!
+//! # Changes versus the paper
+//! A sky that is computed knows its light: [`of_sky`] takes colours from there, and the table stands behind a switch
+//! ([`crate::params::SpriteParams::hours`]). The ambient light of a cloud is the sky's and what its own parts scatter on each other. Its factors
+//! give the table's levels at noon.
 
 use glam::Vec3;
 use welkin_pack::field::Hour;
+
+use crate::clouds::shared::CloudUniforms;
+
+/// Light on the clouds of a moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpriteLight {
+    /// Factor on the colour levels.
+    pub ambient: Vec3,
+    /// The most that sun or moon add.
+    pub direct: Vec3,
+    /// Share of it on the far side of a group.
+    pub least: f32,
+    /// Share of it on the near side.
+    pub most: f32,
+}
+
+/// Factors on the light of the sky and of the sun that make the ambient one, and on the sun's for the direct one.
+const FROM_SKY: f32 = 3.0;
+const FROM_SUN: f32 = 0.45;
+const DIRECT: f32 = 0.67;
+/// Share of the direct light on the far side of a group: the table's by day.
+const LEAST: f32 = 0.05;
+
+/// The light that the clouds of every method have.
+pub fn of_sky(clouds: &CloudUniforms) -> SpriteLight {
+    SpriteLight {
+        ambient: FROM_SKY * clouds.ambient + FROM_SUN * clouds.sunlight,
+        direct: DIRECT * clouds.sunlight,
+        least: LEAST,
+        most: 1.0,
+    }
+}
+
+/// The light of an hour, with a factor on its direct one.
+pub fn of_hour(hour: &Hour, factor: f32) -> SpriteLight {
+    SpriteLight {
+        ambient: Vec3::splat(hour.ambient),
+        direct: Vec3::from(hour.colour) * factor,
+        least: hour.least,
+        most: hour.most,
+    }
+}
 
 /// The table at `time` (0..1); no light at all if it is empty. `hours` are in the order of time.
 pub fn at(hours: &[Hour], time: f32) -> Hour {

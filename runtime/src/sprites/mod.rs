@@ -11,7 +11,7 @@
 //! # Changes versus the paper
 //! - The sheet's grey is relief about one half: it is added in proportion to the light, or clouds would glow at night.
 //! - Air: clouds go over into the clear sky behind them with distance, and out at the end of sight.
-//! - Moonlight by night: the directional colour of the night's hours comes from the moon, opposite the sun.
+//! - Light is the sky's by default, that of sun or moon; the article's table of hours stands behind a switch.
 //! - Density makes clouds more opaque and bases darker, height lifts the whole field, sunset tints the sun's colour as
 //!   in every method.
 //!
@@ -43,8 +43,8 @@ use welkin_pack::Field;
 use welkin_pack::field::Hour;
 
 use self::wind::lift_m;
-use crate::clear_sky::light::{Light, luminary};
-use crate::clouds::shared::{self, CloudView, LOW_HEIGHT_M};
+use crate::clear_sky::light::Light;
+use crate::clouds::shared::{self, CloudUniforms, CloudView, LOW_HEIGHT_M};
 use crate::geometry::math::smoothstep;
 use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
@@ -113,21 +113,25 @@ const MOON: [f32; 2] = [-0.10, 0.04];
 const FLASH_ABOVE_M: f64 = 700.0;
 const FLASH_REACH_M: f32 = 1800.0;
 
-/// The method's share of the uniforms. `params` are in range; `hours` is the pack's table of light, `flash`
-/// the light of a flash of lightning.
+/// The method's share of the uniforms. `params` are in range; `clouds` is the light on the clouds of every method, `hours` the pack's table
+/// of light, `flash` the light of a flash of lightning.
 pub fn uniforms(
     params: &SkyParams,
     view: &CloudView,
     light: &Light,
+    clouds: &CloudUniforms,
     hours: &[Hour],
     flash: Vec3,
 ) -> SpriteUniforms {
     let own = &params.sprites;
-    let hour = hours::at(hours, params.time);
-    let luminary = luminary(light, 1.0);
-    let change = smoothstep(0.0, MOON[1], (light.sun_direction.y - MOON[0]).abs());
+    let lit = match own.hours {
+        true => {
+            let factor = moonlit(light, params.moon) * shared::underside_light(params);
+            hours::of_hour(&hours::at(hours, params.time), factor)
+        }
+        false => hours::of_sky(clouds),
+    };
     let mix = |[from, to]: [f32; 2]| from + (to - from) * params.density;
-    let shut = 1.0 - shared::SHADE * shared::overcast_weight(params.cover);
     let billboards = own.billboards_beyond_m;
     let [x, y, z] = [
         f64::from(params.weather.lightning.place_m[0]),
@@ -136,12 +140,12 @@ pub fn uniforms(
     ];
     let flash_place = DVec3::new(x, y, z) - view.place_m;
     SpriteUniforms {
-        light_direction: luminary.sun_direction,
+        light_direction: light.sun_direction,
         relief: mix(RELIEF),
-        light: Vec3::from(hour.colour) * (change * shut),
-        least: hour.least,
-        ambient: Vec3::splat(hour.ambient),
-        most: hour.most,
+        light: lit.direct,
+        least: lit.least,
+        ambient: lit.ambient,
+        most: lit.most,
         extinction_per_m: EXTINCTION,
         air_height_per_m: 1.0 / AIR_HEIGHT_M,
         opacity: mix(OPACITY),
@@ -155,6 +159,15 @@ pub fn uniforms(
         flash_per_m: 1.0 / FLASH_REACH_M,
         ..Default::default()
     }
+}
+
+/// Share of an hour's direct light as moon and sun change places.
+fn moonlit(light: &Light, moon: f32) -> f32 {
+    let (sun_sin, strength) = match light.is_moon {
+        true => (-light.sun_direction.y, moon),
+        false => (light.sun_direction.y, 1.0),
+    };
+    strength * smoothstep(0.0, MOON[1], (sun_sin - MOON[0]).abs())
 }
 
 /// The lowest base and the highest top of a field's clouds, in metres; 0 if it has none.
@@ -233,11 +246,19 @@ mod tests {
             most: 1.0,
         }];
         let at = |sine: f32| {
+            let sun = Vec3::new((1.0 - sine * sine).sqrt(), sine, 0.0);
+            let is_moon = sine <= MOON[0];
             let light = Light {
-                sun_direction: Vec3::new((1.0 - sine * sine).sqrt(), sine, 0.0),
+                sun_direction: if is_moon { -sun } else { sun },
                 sunlight: Vec3::ONE,
+                ground_sunlight: Vec3::ONE,
+                disc: Vec3::ONE,
                 skylight: Vec3::ONE,
+                sky_on_ground: Vec3::ONE,
                 night: 0.0,
+                dark: 1.0,
+                unit_cd_m2: 32_000.0,
+                is_moon,
             };
             let view = CloudView {
                 texels: 512,
@@ -245,7 +266,10 @@ mod tests {
                 seconds: 0.0,
                 place_m: DVec3::ZERO,
             };
-            uniforms(&SkyParams::default(), &view, &light, &hours, Vec3::ZERO)
+            let mut params = SkyParams::default();
+            params.sprites.hours = true;
+            let clouds = CloudUniforms::default();
+            uniforms(&params, &view, &light, &clouds, &hours, Vec3::ZERO)
         };
         assert_eq!(at(0.5).light.x, 1.0);
         assert!(at(-0.0999).light.x < 1e-3 && at(-0.1001).light.x < 1e-3);

@@ -236,5 +236,5 @@ fn sprites_layer(direction: vec3f, narrowing: f32) -> vec4f {
     }
     let hit = dome_intersect(direction);
     let veil = packed_veil(hit, cloud_level(hit, narrowing));
-    return vec4f(packed_white(cloud_tint(direction)), veil * cloud_clearness(direction));
+    return vec4f(packed_white(cloud_tint(direction), direction), veil * cloud_clearness(direction));
 }

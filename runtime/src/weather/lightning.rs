@@ -18,9 +18,9 @@
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use crate::clear_sky::light::luminance;
 use crate::clouds::shared::{CloudUniforms, CloudView, LOW_HEIGHT_M};
 use crate::geometry::dome::CLOUD_SPHERE_RADIUS;
+use crate::geometry::math::luminance;
 use crate::geometry::math::mix;
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;

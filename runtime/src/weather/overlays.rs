@@ -48,7 +48,7 @@ impl Overlays {
         // Clear sky is not asked for.
         let dome = Dome {
             method,
-            sky: SkyModel::Gradient,
+            sky: SkyModel::Table,
             weather: true,
         };
         let module = self.module.get_or_insert_with(|| context.module(dome));

@@ -124,7 +124,7 @@ pub fn uniforms(
     pixel_rad: f32,
 ) -> RayUniforms {
     let sun = light.sun_direction;
-    let risen = if in_reach(sun, screen) {
+    let risen = if in_reach(sun, screen) && !light.is_moon {
         smoothstep(RISE[0], RISE[1], sun.y)
     } else {
         0.0
@@ -249,6 +249,12 @@ mod tests {
         sunlight: Vec3::ONE,
         skylight: Vec3::splat(0.3),
         night: 0.0,
+        ground_sunlight: Vec3::ONE,
+        disc: Vec3::ONE,
+        sky_on_ground: Vec3::ONE,
+        dark: 1.0,
+        unit_cd_m2: 32_000.0,
+        is_moon: false,
     };
 
     fn at(sun_direction: Vec3, azimuth_rad: f32) -> RayUniforms {

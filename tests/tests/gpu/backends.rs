@@ -35,7 +35,7 @@ fn view() -> Camera {
 fn assert_same_pictures(pack: &Pack, frames: &[(&str, SkyParams)]) {
     let gpus = [wgpu::Backends::VULKAN, wgpu::Backends::GL].map(Gpu::open);
     let mut skies = gpus.each_ref().map(|gpu| gpu.sky(pack, FORMAT));
-    let twin = Twin::new(pack);
+    let twin = Twin::for_display(pack);
     let are_alike = gpus.iter().all(|gpu| gpu.is_llvmpipe);
     for (name, params) in frames {
         let picture = |i: usize| {
@@ -104,7 +104,7 @@ fn a_slightly_different_sky_is_told_apart() {
     let gpus = [wgpu::Backends::VULKAN, wgpu::Backends::GL].map(Gpu::open);
     let pack = pack::default_pack();
     let mut skies = gpus.each_ref().map(|gpu| gpu.sky(pack, FORMAT));
-    let twin = Twin::new(pack);
+    let twin = Twin::for_display(pack);
     let are_alike = gpus.iter().all(|gpu| gpu.is_llvmpipe);
     for method in Method::ALL {
         let params = defaults(method);

@@ -21,6 +21,7 @@ fn params(method: Method, cover: f32) -> SkyParams {
         method,
         cover,
         time: TIME,
+        flare: 1.0,
         ..SkyParams::default()
     }
 }

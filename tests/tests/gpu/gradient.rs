@@ -40,7 +40,7 @@ fn rows(format: wgpu::TextureFormat, dither: bool, channel: usize) -> Vec<Vec<u8
 
 /// What the same rows should hold, in steps of the target, not rounded: the mean of each row.
 fn expected(channel: usize) -> Vec<f32> {
-    let radiance = Twin::new(pack::default_pack()).render(&clear(false), &camera(), 0.0);
+    let radiance = Twin::for_display(pack::default_pack()).render(&clear(false), &camera(), 0.0);
     let values: Vec<f32> = radiance
         .iter()
         .map(|&r| tonemap::to_bytes(r, &clear(false))[channel])
@@ -80,14 +80,14 @@ fn every_level_between_the_darkest_and_the_brightest_is_there() {
                 seen.len()
             );
             // The gradient is continuous, so between its ends no level may be missing; and a clear noon sky
-            // spans far more than the few levels of a banded one.
+            // spans more than the few levels of a banded one: its dark upper part, some thirty of them.
             assert_eq!(
                 seen.len(),
                 usize::from(high - low) + 1,
                 "{format:?} channel {channel}: {seen:?}"
             );
             assert!(
-                seen.len() > 40,
+                seen.len() > 30,
                 "{format:?} channel {channel}: only {} levels",
                 seen.len()
             );

@@ -2,8 +2,10 @@
 //!
 //! A program beside `it`, which runs where there is no Vulkan driver.
 
+mod air;
 mod backends;
 mod cover;
+mod daylight;
 mod depth;
 mod dome;
 mod flares;
@@ -19,6 +21,7 @@ mod pictures;
 mod purity;
 mod robust;
 mod shadows;
+mod sky_light;
 mod skybox;
 mod sprites;
 mod stars;

@@ -286,7 +286,7 @@ fn settings_out_of_range_are_told_by_their_names() {
             |p, v| p.lit.formation_interval_s = v,
             vec![0.0, 86_401.0],
         ),
-        ("lit.moon", |p, v| p.lit.moon = v, vec![-0.1, 1.1]),
+        ("moon", |p, v| p.moon = v, vec![-0.1, 1.1]),
         (
             "lit.layers[0].share",
             |p, v| p.lit.layers[0].share = v,

@@ -7,7 +7,7 @@ use welkin_runtime::internals::clear_sky::galaxy::EXTINCTION;
 use welkin_runtime::internals::clear_sky::stars::{COLD, GALAXY_BOOST, WARM};
 use welkin_runtime::internals::frame::Uniforms;
 use welkin_runtime::internals::pack_data::PackData;
-use welkin_runtime::{Camera, SkyParams};
+use welkin_runtime::{Camera, Sky, SkyParams};
 use welkin_tests::texture::smoothstep;
 use welkin_tests::{camera, gpu, pack, stars};
 
@@ -17,8 +17,24 @@ fn night() -> SkyParams {
     SkyParams {
         time: 0.0,
         cover: 0.0,
+        // Neither the moon's disc nor the ground in its light is a star.
+        sun: false,
+        moon: 0.0,
         ..SkyParams::default()
     }
+}
+
+/// A picture less the same one without stars: what is left is theirs and the galaxy's, without the airglow.
+fn starlight(sky: &mut Sky, params: &SkyParams, view: &Camera, seconds: f64) -> Vec<[f32; 4]> {
+    let without = SkyParams {
+        stars: false,
+        ..*params
+    };
+    let with = gpu::render(sky, FORMAT, params, view, seconds);
+    let without = gpu::render(sky, FORMAT, &without, view, seconds);
+    let pairs = with.into_iter().zip(without);
+    let less = |(a, b): ([f32; 4], [f32; 4])| [a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3]];
+    pairs.map(less).collect()
 }
 
 /// Every star of a level over the hemisphere: direction and record.
@@ -113,7 +129,7 @@ fn total_light_is_that_of_the_records_during_a_slow_pan() {
                         }
                     })
                     .sum();
-                let texels = gpu::render(&mut sky, FORMAT, &night(), &camera, 10.0);
+                let texels = starlight(&mut sky, &night(), &camera, 10.0);
                 ratios.push(total(&texels, size) / expected);
             }
             let (low, high) = ratios
@@ -139,11 +155,7 @@ fn total_light_is_that_of_the_records_during_a_slow_pan() {
 fn density_over_elevation_is_even() {
     // Stars all alike: then light counts them.
     let pack = pack::changed_pack(None, |role, image| match role {
-        Role::Sky => image
-            .texels
-            .chunks_exact_mut(4)
-            .for_each(|t| t.copy_from_slice(&[0.0, 0.0, 0.0, 1.0])),
-        Role::Galaxy => image.texels.fill(0.0),
+        Role::Sky | Role::Galaxy => image.texels.fill(0.0),
         Role::Stars => image
             .texels
             .chunks_exact_mut(4)
@@ -171,10 +183,7 @@ fn density_over_elevation_is_even() {
         let uniforms = facts.uniforms(&night(), &view, 0.0, 0.0);
         assert_eq!(uniforms.stars.level, 0.0, "the records are read");
         let one = f64::from(uniforms.stars.brightness * WARM.y);
-        for (index, texel) in gpu::render(&mut sky, FORMAT, &night(), &view, 0.0)
-            .iter()
-            .enumerate()
-        {
+        for (index, texel) in starlight(&mut sky, &night(), &view, 0.0).iter().enumerate() {
             let pixel = Vec2::new((index % 1024) as f32 + 0.5, (index / 1024) as f32 + 0.5);
             let y = camera::ray_of(&uniforms.camera, pixel).normalize().y;
             let band = ((y - lowest) / (1.0 - lowest) * bands as f32).floor();
@@ -242,7 +251,7 @@ fn even_stars_give_the_same_light_wherever_they_are_on_a_wide_picture() {
         let of = |(azimuth, elevation)| {
             let view = Camera::looking(azimuth, elevation, quarter, size);
             let uniforms = facts.uniforms(&params, &view, 10.0, 0.0);
-            let texels = gpu::render(&mut sky, FORMAT, &params, &view, 10.0);
+            let texels = starlight(&mut sky, &params, &view, 10.0);
             let middle_sr = 4.0 / f64::from(size[0] * size[1]);
             let records = all_stars(&pack, uniforms.stars.level as usize);
             let expected: f64 = records
@@ -283,7 +292,7 @@ fn a_star_flickers_as_its_record_says_at_any_time() {
         let view = Camera::looking(azimuth, elevation, 0.05, size);
         for seconds in [0.0, 0.37, 5.2, 63.99, 1e6, 1e6 + 0.5, -3.25] {
             let uniforms = facts.uniforms(&night(), &view, seconds, 0.0);
-            let texels = gpu::render(&mut sky, FORMAT, &night(), &view, seconds);
+            let texels = starlight(&mut sky, &night(), &view, seconds);
             let near = |i: &usize| (i % 65).abs_diff(32) < 3 && (i / 65).abs_diff(32) < 3;
             let light: f64 = (0..65 * 65)
                 .filter(near)
@@ -331,7 +340,7 @@ fn lone_stars(pack: &Pack, size: [u32; 2], fov_deg: f32) -> [usize; 2] {
         .collect();
     let mut good = vec![true; lone.len()];
     for seconds in [0.0, 0.31, 7.77] {
-        let texels = gpu::render(&mut sky, FORMAT, &night(), &view, seconds);
+        let texels = starlight(&mut sky, &night(), &view, seconds);
         for ((direction, star, pixel), good) in lone.iter().zip(&mut good) {
             let [x, y] = [pixel.x, pixel.y].map(|c| c as i64);
             let around = (-REACH..=REACH).flat_map(|j| (-REACH..=REACH).map(move |i| (i, j)));
@@ -378,16 +387,13 @@ fn lone_stars_follow_their_records_at_every_size() {
 fn stars_inside_the_galaxy_are_brighter() {
     let with = |galaxy: f32, stars: bool| {
         let pack = pack::changed_pack(None, |role, image| match role {
-            Role::Sky => image
-                .texels
-                .chunks_exact_mut(4)
-                .for_each(|t| t.copy_from_slice(&[0.0, 0.0, 0.0, 1.0])),
+            Role::Sky => image.texels.fill(0.0),
             Role::Galaxy => image.texels.fill(galaxy),
             Role::Stars if !stars => image.texels.fill(0.0),
             _ => {}
         });
         let view = Camera::looking(0.0, 1.2, 0.6, [320, 240]);
-        let texels = gpu::render(&mut gpu::sky(&pack, FORMAT), FORMAT, &night(), &view, 0.0);
+        let texels = starlight(&mut gpu::sky(&pack, FORMAT), &night(), &view, 0.0);
         texels.iter().map(|t| f64::from(t[1])).sum::<f64>()
     };
     let outside = with(0.0, true);

@@ -2,11 +2,11 @@
 
 use glam::Vec3;
 use welkin_pack::Role;
-use welkin_runtime::internals::clear_sky::light::{Light, luminance};
 use welkin_runtime::internals::clear_sky::perez;
 use welkin_runtime::internals::clear_sky::perez::PerezUniforms;
 use welkin_runtime::internals::clear_sky::perez::TWILIGHT_END;
 use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::internals::geometry::math::luminance;
 use welkin_runtime::internals::pack_data::PackData;
 use welkin_runtime::params::{PerezShape, SkyModel};
 use welkin_runtime::{Camera, SkyParams};
@@ -25,21 +25,21 @@ struct Moment {
     perez: Vec<f32>,
 }
 
-fn moment(
-    facts: &PackData,
-    texture: &Texture,
-    shape: PerezShape,
-    elevation_deg: f32,
-    directions: &[Vec3],
-) -> Moment {
+fn moment(facts: &PackData, shape: PerezShape, elevation_deg: f32, directions: &[Vec3]) -> Moment {
     let time = time_of(elevation_deg);
+    let params = SkyParams {
+        time,
+        ..SkyParams::default()
+    };
+    let texture = sky::texture(facts, &params);
+    let clouds = Texture::new(pack::default_pack(), Role::Clouds);
     let frame = uniforms(facts, shape, 2.5, time);
     let alone = Uniforms {
         perez: PerezUniforms::default(),
         ..frame
     };
     let look = |frame: &Uniforms| {
-        let seen = |d: &Vec3| sky::radiance(frame, texture, *d);
+        let seen = |d: &Vec3| sky::radiance(frame, &texture, &clouds, *d);
         directions.iter().map(seen).collect::<Vec<_>>()
     };
     let perez = |d: &Vec3| match frame.perez.weight {
@@ -47,7 +47,7 @@ fn moment(
         _ => linear(colour(&frame.perez, *d)).max_element(),
     };
     Moment {
-        level: luminance(Light::new(&facts.sky, facts.noon_elevation_rad, time).skylight),
+        level: luminance(facts.lit_sky(&params).light.skylight),
         seen: look(&frame),
         gradient: look(&alone),
         perez: directions.iter().map(perez).collect(),
@@ -59,7 +59,6 @@ fn moment(
 fn no_step_is_seen_while_the_sun_goes_from_the_zenith_to_the_nadir() {
     let pack = overhead();
     let facts = PackData::new(&pack).unwrap();
-    let texture = Texture::new(&pack, Role::Sky);
     let directions: Vec<Vec3> = hemisphere(5, 8)
         .chain([Vec3::Y, Vec3::X, -Vec3::X])
         .collect();
@@ -69,7 +68,7 @@ fn no_step_is_seen_while_the_sun_goes_from_the_zenith_to_the_nadir() {
         PerezShape::Cie(12),
         PerezShape::Cie(15),
     ] {
-        let of = |elevation: f32| moment(&facts, &texture, shape, elevation, &directions);
+        let of = |elevation: f32| moment(&facts, shape, elevation, &directions);
         let mut last = of(90.0);
         for step in 1..=1800 {
             let elevation_deg = 90.0 - step as f32 * 0.1;
@@ -118,7 +117,7 @@ fn by_night_and_with_the_other_model_nothing_is_left_of_it() {
     };
     let none = PerezUniforms::default();
     assert_eq!(
-        [of(SkyModel::Perez, 0.0), of(SkyModel::Gradient, 0.5)],
+        [of(SkyModel::Perez, 0.0), of(SkyModel::Table, 0.5)],
         [none; 2]
     );
     assert_ne!(of(SkyModel::Perez, 0.5), none);

@@ -40,6 +40,7 @@ fn field_pack(text: &str) -> Pack {
         recipe: text.to_string(),
         inputs: Vec::new(),
         noon_elevation_rad: 1.0,
+        aerosol_depths: resolved.sky.aerosol_depths,
         ..PackInfo::default()
     };
     let pack = Pack::build(info, Vec::new()).unwrap();

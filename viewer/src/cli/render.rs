@@ -88,7 +88,7 @@ impl RenderArgs {
 
     /// Files of radiance hold no picture: what makes one of it is a mistake there, and told.
     fn refuse_for_radiance(&self) -> Result<(), String> {
-        let of_picture = ["exposure-ev", "tonemap"];
+        let of_picture = ["exposure-ev", "auto-exposure", "tonemap"];
         let given = of_picture.into_iter().find(|o| self.settings.is_given(o));
         match (given, self.shot()) {
             (Some(option), Ok(shot)) if !shot.is_picture() => Err(format!(

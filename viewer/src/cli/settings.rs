@@ -59,13 +59,13 @@ impl SettingArgs {
     /// # Errors
     /// Which option it is, and whose.
     pub fn refuse_others(&self) -> Result<(), String> {
-        if self.settings.params.sky == SkyModel::Gradient {
+        if self.settings.params.sky == SkyModel::Table {
             let mut own = KEYS.iter().filter(|key| is_of_perez(key));
             return match own.find(|key| self.is_given(key.name)) {
                 None => Ok(()),
                 Some(key) => {
                     let remedy = "add --sky perez";
-                    Err(belongs(key.name, "--sky perez", "--sky gradient", remedy))
+                    Err(belongs(key.name, "--sky perez", "--sky table", remedy))
                 }
             };
         }
@@ -218,7 +218,7 @@ fn heading(key: &Key) -> Option<&'static str> {
 
 /// Whether only the sky of Perez looks at a setting.
 fn is_of_perez(key: &Key) -> bool {
-    key.group == Group::Air && key.name != "sky"
+    key.group == Group::Air && !key.applies(&Settings::default())
 }
 
 /// The sentence of an option: whose it is, what it does, its range, its default.

@@ -65,7 +65,7 @@ mod tests {
         }
     }
 
-    fn every_curve() -> [SkyParams; 4] {
+    fn every_curve() -> [SkyParams; Tonemap::ALL.len()] {
         Tonemap::ALL.map(|tonemap| SkyParams {
             tonemap,
             ..SkyParams::default()
@@ -87,6 +87,7 @@ mod tests {
     fn the_sunlit_cloud_is_a_little_below_white() {
         let filmic = SkyParams {
             tonemap: Tonemap::Filmic,
+            exposure: 1.0,
             ..SkyParams::default()
         };
         // (1 + A) / (1 + B + A) is 0.86, which sRGB encodes as 0.935.

@@ -1,24 +1,18 @@
 //! The irradiance of a sky as nine spherical harmonics.
 //!
 //! # Theory
-//! R. Ramamoorthi, P. Hanrahan, "An Efficient Representation for Irradiance Environment Maps", SIGGRAPH 2001. Irradiance is radiance
-//! convolved with a clamped cosine, which keeps little above degree 2: `E(n) = sum A_l L_lm Y_lm(n)`, with `L_lm` the integral of radiance
-//! times `Y_lm` (equation 10 there is the same with the constants of `Y` multiplied in) and `A_l` of equation 8: π, 2π/3, π/4.
+//! See [`welkin_runtime::internals::geometry::harmonics`].
 //!
 //! # Practice
 //! The coefficients are `A_l L_lm`: irradiance, and not radiance. Basis functions are real and orthonormal, without the phase of Condon and
 //! Shortley, in the order of [`BASIS`], of a direction in the axes of the world: x east, y up, z south. With nine terms the
 //! irradiance of a sun alone is off by -4 % (at 58 degrees from it) to 9 % (at 90 degrees) of what it has towards the sun, and below 0 about 122 degrees from it, where 0 is taken.
 
-use std::f64::consts::PI;
-
 use rayon::prelude::*;
+pub use welkin_runtime::internals::geometry::harmonics::{CLAMPED_COSINE, COUNT, basis};
 
 use super::cube::{texel_direction, texel_solid_angle};
 use super::cubemap::Cubemap;
-
-/// How many there are: degrees 0, 1 and 2.
-pub const COUNT: usize = 9;
 
 /// The basis functions as a reader computes them, of a unit vector (x, y, z).
 pub const BASIS: [&str; COUNT] = [
@@ -33,42 +27,11 @@ pub const BASIS: [&str; COUNT] = [
     "0.546274 * (x * x - y * y)",
 ];
 
-/// The clamped cosine, of each basis function's degree (equation 8).
-const CLAMPED_COSINE: [f64; COUNT] = [
-    PI,
-    2.0 * PI / 3.0,
-    2.0 * PI / 3.0,
-    2.0 * PI / 3.0,
-    PI / 4.0,
-    PI / 4.0,
-    PI / 4.0,
-    PI / 4.0,
-    PI / 4.0,
-];
-
 /// Irradiance by direction, red, green and blue of each basis function.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Harmonics {
     /// `A_l L_lm`, in the unit of radiance times steradian.
     pub coefficients: [[f64; 3]; COUNT],
-}
-
-/// The basis functions of a unit direction: equation 3.
-pub fn basis([x, y, z]: [f64; 3]) -> [f64; COUNT] {
-    // sqrt(1 / 4π), sqrt(3 / 4π), sqrt(15 / 4π), sqrt(5 / 16π), sqrt(15 / 16π).
-    let [flat, first, product, zonal, difference] =
-        [1.0, 3.0, 15.0, 1.25, 3.75].map(|n: f64| (n / (4.0 * PI)).sqrt());
-    [
-        flat,
-        first * y,
-        first * z,
-        first * x,
-        product * x * y,
-        product * y * z,
-        zonal * (3.0 * z * z - 1.0),
-        product * x * z,
-        difference * (x * x - y * y),
-    ]
 }
 
 impl Harmonics {

@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::Result;
 use welkin_pack::Pack;
 use welkin_pack::whole::{Folder, IsOurs, verify_folder, write_file};
+use welkin_runtime::SkyParams;
 use welkin_viewer::export::Environment;
 use welkin_viewer::export::cube::FACES;
 use welkin_viewer::export::cubemap::Cubemap;
@@ -63,12 +64,13 @@ impl<'a> Artist<'a> {
             }
             Artist::Equirect(sky, width, azimuth_rad, format) => {
                 let map = sky.equirect(view, *width, *azimuth_rad)?;
-                encode(file, *format, &shown_as(*format, map, view))?
+                encode(file, *format, &shown_as(*format, map, &sky.exposed(view)))?
             }
             Artist::Ktx2(sky, side) => sky.cubemap(view, *side)?.ktx2(file)?,
             Artist::Faces(sky, side, format) => {
                 let map = sky.cubemap(view, *side)?;
-                return faces(&map, *format, file, view).map(Encoded::Folder);
+                let params = sky.exposed(view);
+                return faces(&map, *format, file, &params).map(Encoded::Folder);
             }
         };
         Ok(Encoded::File(encoded))
@@ -80,11 +82,11 @@ fn faces(
     map: &Cubemap,
     format: Format,
     folder: &str,
-    view: &View,
+    params: &SkyParams,
 ) -> Result<Vec<(String, Vec<u8>)>> {
     let face = |(index, face): (usize, &str)| {
         let name = face_name(face, format);
-        let picture = shown_as(format, map.frame(index), view);
+        let picture = shown_as(format, map.frame(index), params);
         let bytes = encode(&format!("{folder}/{name}"), format, &picture)?;
         Ok((name, bytes))
     };
@@ -112,9 +114,9 @@ pub fn draw(mut artist: Artist<'_>, view: &View, output: &Path) -> Result<()> {
 }
 
 /// Radiance as the format wants it.
-fn shown_as(format: Format, map: Frame, view: &View) -> Frame {
+fn shown_as(format: Format, map: Frame, params: &SkyParams) -> Frame {
     match format {
-        Format::Png => displayed(map, &view.params),
+        Format::Png => displayed(map, params),
         Format::Exr | Format::Hdr => map,
     }
 }

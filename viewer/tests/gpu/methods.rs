@@ -254,15 +254,9 @@ fn rays_and_rain_come_over_the_clouds_of_every_method() {
 #[test]
 fn sun_flare_and_stars_can_be_left_out() {
     let towards_the_sun = ["--cover", "0", "--azimuth", "180", "--elevation", "50"];
-    each_option_changes(
-        &towards_the_sun,
-        &[
-            &["--no-sun"],
-            &["--flare", "0"],
-            &["--flare", "0.5"],
-            &["--starburst"],
-        ],
-    );
+    each_option_changes(&towards_the_sun, &[&["--no-sun"], &["--flare", "0.5"]]);
+    let with_flare = [&towards_the_sun[..], &["--flare", "1"]].concat();
+    each_option_changes(&with_flare, &[&["--starburst"]]);
     // As many stars as a small texture has: a wide view of a clear night holds some.
     let night = ["--cover", "0", "--time", "0", "--fov", "120"];
     each_option_changes(&night, &[&["--no-stars"]]);
@@ -276,7 +270,8 @@ fn clouds_move_when_the_viewer_does_and_the_sky_stays() {
         let words = ["--method", method];
         let places: [&[&str]; 2] = [&["--east", "-300"], &["--north", "300"]];
         each_option_changes(&words, &places);
-        let clear = [&words[..], &["--cover", "0"]].concat();
+        // Away from the ground, which is near.
+        let clear = [&words[..], &["--cover", "0", "--elevation", "70"]].concat();
         let here = render(&file, &clear);
         assert_eq!(
             render(&file, &[&clear[..], places[0]].concat()),

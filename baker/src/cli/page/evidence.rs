@@ -10,11 +10,14 @@ use welkin_pack::{Image, Role, Shape, Texture};
 
 use super::chart;
 use super::picture::{self, Pictures, Shown};
-use crate::cli::preview;
+use crate::cli::{preview, sky};
 
 /// Most pixels a side of a picture, and of those of a cube, of which there are six.
 const MOST: u32 = 256;
 const MOST_OF_A_FACE: u32 = 128;
+
+/// Most pixels a side of all layers of the clear sky: those of the default recipe.
+const MOST_OF_A_SHEET: u32 = 640;
 
 /// Most pixels a side of a picture of a higher level.
 const MOST_OF_A_LEVEL: u32 = 64;
@@ -40,34 +43,39 @@ pub fn size(texture: &Texture) -> String {
     format!("{width}\u{d7}{height} {format}{layers}, {levels}")
 }
 
-/// Radiance in colour, as the preview shows it: the sky with the zenith on top, the faces of a skybox. Nothing of other roles.
+/// Radiance in colour, as the preview shows it: the clear sky at some hours, the faces of a skybox. Nothing of other roles.
 pub fn colour(role: Role, texture: &Texture, pictures: &mut Pictures) -> Result<String> {
-    if !matches!(role, Role::Sky | Role::Skybox) {
-        return Ok(String::new());
-    }
+    let shown: Vec<(String, Image)> = match role {
+        Role::Sky => sky::looks(texture)
+            .into_iter()
+            .map(|look| (look.caption(), look.image))
+            .collect(),
+        Role::Skybox => (0..texture.layers)
+            .map(|layer| {
+                let face = role.layer_name(layer).unwrap_or_default();
+                (face, texture.image(0, layer))
+            })
+            .collect(),
+        _ => return Ok(String::new()),
+    };
     let mut html = "<div class=\"row colour\">\n".to_string();
-    for layer in 0..texture.layers {
-        let image = texture.image(0, layer);
-        let row = |y: u32| match role {
-            Role::Sky => image.height - 1 - y,
-            _ => y,
+    for (caption, image) in shown {
+        let most = if role == Role::Sky {
+            MOST
+        } else {
+            MOST_OF_A_FACE
         };
-        let rgb = preview::in_colour(&image, |x, y| image.texel(x, row(y)));
-        let shown = picture::colour(pictures, &rgb, MOST_OF_A_FACE)?;
-        let caption = match role.layer_name(layer) {
-            Some(face) => face,
-            None => "in colour: midnight to midnight, zenith on top".to_string(),
-        };
-        html += &figure(&shown, "", &caption, &caption);
+        let shown = picture::colour(pictures, &preview::in_colour(&image), most)?;
+        html += &figure(&shown, SIDE, "", &caption, &caption);
     }
     Ok(html + "</div>\n")
 }
 
-/// A picture with a line below it.
-fn figure(shown: &Shown, crisp: &str, label: &str, caption: &str) -> String {
+/// A picture with a line below it, `side` pixels on the screen.
+fn figure(shown: &Shown, side: u32, crisp: &str, label: &str, caption: &str) -> String {
     let [width, height] = shown.size;
     let longer = width.max(height).max(1);
-    let [on_screen, rows] = [width, height].map(|side| (side * SIDE / longer).max(1));
+    let [on_screen, rows] = [width, height].map(|texels| (texels * side / longer).max(1));
     format!(
         "<figure><div class=\"picture{crisp} {}\" style=\"width:{on_screen}px;height:{rows}px\" role=\"img\" \
          aria-label=\"{label}\"></div><figcaption>{caption}</figcaption></figure>\n",
@@ -75,18 +83,37 @@ fn figure(shown: &Shown, crisp: &str, label: &str, caption: &str) -> String {
     )
 }
 
-/// All that is to be seen of a channel, a row a layer.
+/// All that is to be seen of a channel, a row a layer; of the clear sky's many layers one picture.
 pub fn channel(
     role: Role,
     texture: &Texture,
     channel: usize,
     pictures: &mut Pictures,
 ) -> Result<String> {
+    if role == Role::Sky {
+        return of_sky(texture, channel, pictures);
+    }
     let mut html = String::new();
     for layer in 0..texture.layers {
         html += &one_layer(role, texture, channel, layer, pictures)?;
     }
     Ok(html)
+}
+
+fn of_sky(texture: &Texture, channel: usize, pictures: &mut Pictures) -> Result<String> {
+    let (role, spec) = (Role::Sky, &Role::Sky.spec().channels[channel]);
+    let image = sky::sheet(texture, channel);
+    let shown = picture::channel(pictures, role, &image, channel, MOST_OF_A_SHEET)?;
+    let label = format!("{} {}", role.name(), spec.name);
+    let size = format!("{}\u{d7}{}", image.width, image.height);
+    let caption = format!(
+        "{size}: suns across, zenith on top; below the aureole's light, then both with more haze"
+    );
+    let picture = figure(&shown, shown.size[0], "", &label, &caption);
+    let histogram = chart::histogram(&image.texels, texture.format, spec.range, spec.unit);
+    Ok(format!(
+        "<div class=\"row\">\n{picture}<div class=\"charts\">{histogram}</div>\n</div>\n"
+    ))
 }
 
 fn one_layer(
@@ -115,7 +142,7 @@ fn one_layer(
     let label = format!("{} {} {}", role.name(), name.unwrap_or_default(), spec.name);
     html += &picture(&shown, &image, role, spec.name, &label);
     // The gradient does not tile, though its texture does.
-    if role.spec().wrap == Wrap::Repeat && role != Role::Sky && spec.name != "gradient" {
+    if role.spec().wrap == Wrap::Repeat && spec.name != "gradient" {
         let _ = writeln!(
             html,
             "<figure><div class=\"picture seam{} {}\" style=\"width:{SIDE}px;height:{SIDE}px\" role=\"img\" \
@@ -149,7 +176,7 @@ fn picture(shown: &Shown, image: &Image, role: Role, channel: &str, label: &str)
     if preview::is_star_light(role, channel) {
         caption += ", cube root";
     }
-    figure(shown, crisp(shown, role), label, &caption)
+    figure(shown, SIDE, crisp(shown, role), label, &caption)
 }
 
 /// One channel of an image of a texture: a quarter of the memory of all.

@@ -11,7 +11,7 @@ use super::{Desk, Run, contents, default_pack, run, welkin};
 
 /// A recipe whose pack is small and sound.
 const SOUND: &str = "name = \"small\"\n[clouds]\nsize = 128\n[stars]\nsize = 64\ncount = 60\n[galaxy]\nsize = 32\n\
-    [sky]\nwidth = 32\nheight = 16\n[sun]\nsize = 32\n[fbm]\nsize = 64\ncells = 16\noctaves = 2\n[flares]\nsize = 64\n\
+    [sky]\nsuns = 16\n[sun]\nsize = 32\n[fbm]\nsize = 64\ncells = 16\noctaves = 2\n[flares]\nsize = 64\n\
     [layers]\nsize = 128\n[sprites]\nsize = 128\n[field]\nsections = 1\n";
 
 fn pack(desk: &Desk, recipe: &str) -> PathBuf {

@@ -86,6 +86,7 @@ fn what_a_pack_says_of_itself_stays_on_its_line() {
             blake3: "0".repeat(64),
         }],
         noon_elevation_rad: 1.0,
+        aerosol_depths: [0.04, 0.24],
         noise: NOISE,
         detail: NOISE,
     };
@@ -206,8 +207,9 @@ fn the_preview_is_a_small_picture_with_something_on_it() {
         .arg("-o")
         .arg(&sheet))
     .done();
-    // Some 45 panels of 192x192 grey pixels, half of them noise that hardly compresses.
-    assert!(fs::metadata(&sheet).unwrap().len() < 45 / 2 * 192 * 192);
+    // 46 panels of 192x192 grey pixels, half of them noise that hardly compresses, and four skies in colour.
+    let most = 46 / 2 * 192 * 192 + 4 * 192 * 48 * 3;
+    assert!(fs::metadata(&sheet).unwrap().len() < most);
     let picture = image::open(&sheet).unwrap().into_rgb8();
     // Both black (a night sky) and white (letters, thick cloud), and the blue of the day.
     let has = |wanted: fn([u8; 3]) -> bool| picture.pixels().any(|p| wanted(p.0));
@@ -232,11 +234,15 @@ fn unpacked_channels_are_the_texels_of_the_pack() {
     let pack = Pack::open(default_pack()).unwrap();
     let mut files = contents(&folder).len();
     let layers = pack.manifest().textures.iter().flat_map(|entry| {
-        let layer = |i: u32| (entry.role, entry.role.layer_name(i), i);
-        (0..entry.layers).map(layer)
+        let texture = pack.texture(entry.role).unwrap();
+        let layer = |i: u32| (entry.role, entry.role.layer_name(i), texture.image(0, i));
+        match entry.role {
+            // One below the other in one image.
+            Role::Sky => vec![(Role::Sky, None, texture.stacked(0))],
+            _ => (0..entry.layers).map(layer).collect(),
+        }
     });
-    for (role, layer, index) in layers {
-        let image = pack.texture(role).unwrap().image(0, index);
+    for (role, layer, image) in layers {
         let layer = layer.map_or(String::new(), |name| format!(".{name}"));
         for (index, channel) in role.spec().channels.iter().enumerate() {
             let stored: Vec<f32> = image.channel(index).collect();

@@ -24,7 +24,7 @@ use std::time::Duration;
 
 /// The recipe of tests that need some pack and not a beautiful one.
 const SMALL_RECIPE: &str = "name = \"small\"\n[clouds]\nsize = 64\n[stars]\nsize = 64\ncount = 20\n\
-    [galaxy]\nsize = 32\n[sky]\nwidth = 16\nheight = 16\n[sun]\nsize = 16\n\
+    [galaxy]\nsize = 32\n[sky]\nsuns = 16\n[sun]\nsize = 16\n\
     [fbm]\nsize = 64\ncells = 16\n[flares]\nsize = 64\n[layers]\nsize = 64\n[sprites]\nsize = 128\n";
 
 /// `welkin`, to be given arguments.

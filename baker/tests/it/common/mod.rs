@@ -22,7 +22,7 @@ const SMALL: [(&str, &str); 9] = [
     ("clouds", "size = 64"),
     ("stars", "size = 64\ncount = 20"),
     ("galaxy", "size = 32"),
-    ("sky", "width = 16\nheight = 16"),
+    ("sky", "suns = 16"),
     ("fbm", "size = 64\ncells = 16"),
     ("flares", "size = 64"),
     ("layers", "size = 64"),

@@ -52,6 +52,7 @@ fn problems(field: &Field) -> Vec<String> {
         recipe: String::new(),
         inputs: Vec::new(),
         noon_elevation_rad: 1.0,
+        aerosol_depths: [0.04, 0.24],
         ..PackInfo::default()
     };
     let pack = Pack::build(info, Vec::new()).unwrap();

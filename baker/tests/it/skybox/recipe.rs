@@ -197,6 +197,7 @@ fn a_turned_face_of_a_real_picture_is_warned_of() {
             recipe: String::new(),
             inputs: Vec::new(),
             noon_elevation_rad: 1.0,
+            aerosol_depths: [0.04, 0.24],
             ..welkin_pack::PackInfo::default()
         };
         let place = tempfile::tempdir().unwrap();

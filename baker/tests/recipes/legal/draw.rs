@@ -82,9 +82,14 @@ impl Draw {
     }
 
     fn day(&mut self) {
-        self.size("sky.width", 16, 512);
-        self.size("sky.height", 16, 256);
-        self.real("sky.haze", 0.0, 10.0);
+        self.size("sky.width", 16, 64);
+        self.size("sky.height", 32, 64);
+        self.integer("sky.suns", 16, 64);
+        let haze = self.number(0.0, 10.0);
+        self.line(format!("sky.haze = {haze}"));
+        // Now and then no more than the haze, which is refused.
+        let least = if self.chance(0.1) { 0.1 } else { haze.max(0.1) };
+        self.real("sky.most_haze", least, 40.0);
         self.size("sun.size", 16, 1024);
         self.real("sun.noon_elevation_deg", 5.0, 90.0);
     }

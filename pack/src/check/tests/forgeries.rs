@@ -236,29 +236,6 @@ fn light_that_is_no_band_is_no_galaxy() {
 }
 
 #[test]
-fn skies_of_another_day_or_colour_are_errors() {
-    assert_only(
-        "sky-colour",
-        &with(Role::Sky, |image| each_texel(image, |_, _, t| t.swap(0, 2))),
-    );
-    assert_only(
-        "sky-colour",
-        &with(Role::Sky, |image| each_texel(image, |_, _, t| t.swap(1, 2))),
-    );
-    assert_only(
-        "sky-hours",
-        &with_info(|info| info.noon_elevation_rad = 0.8, |_| {}),
-    );
-    let late = with(Role::Sky, |image| {
-        let sound = image.clone();
-        each_texel(image, |x, y, t| {
-            t[..3].copy_from_slice(&sound.texel((x + 1) % 64, y)[..3])
-        });
-    });
-    assert_only("sky-hours", &late);
-}
-
-#[test]
 fn a_sun_that_is_not_round_is_an_error() {
     let squeezed = with(Role::Sun, |image| {
         let sound = image.clone();

@@ -12,12 +12,17 @@ fn sides([least, most]: [u32; 2]) -> impl Iterator<Item = u32> + Clone {
     std::iter::successors(Some(least), |side| Some(side * 2)).take_while(move |side| *side <= most)
 }
 
-/// Every legal width, height and number of layers of a role, no side larger than `most`.
+/// Every legal width, height and number of layers of a role, no side larger than `most`. Of a hundred numbers of layers the ends and one between.
 fn layouts(role: Role, most: u32) -> Vec<[u32; 3]> {
     let spec = role.spec();
     let [least_side, most_side] = spec.sides;
     let sides = sides([least_side, most_side.min(most)]);
-    let layers = || spec.layers[0]..=spec.layers[1];
+    let [fewest, most_layers] = spec.layers;
+    let step = match most_layers - fewest {
+        0..100 => 1,
+        many => many / 2,
+    };
+    let layers = || (fewest..=most_layers).step_by(step as usize);
     let sizes = sides
         .clone()
         .flat_map(|w| sides.clone().map(move |h| [w, h]));

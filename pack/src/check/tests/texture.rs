@@ -18,13 +18,7 @@ fn texture(role: Role) -> Texture {
 }
 
 /// The rules that lean on what a manifest says: without one they are skipped, or ask less.
-const LEAN_ON_A_MANIFEST: [&str; 5] = [
-    "cloud-waves",
-    "cloud-band",
-    "cloud-mean",
-    "sky-night",
-    "sky-hours",
-];
+const LEAN_ON_A_MANIFEST: [&str; 3] = ["cloud-waves", "cloud-band", "cloud-mean"];
 
 fn leans_on_a_manifest(finding: &Finding) -> bool {
     LEAN_ON_A_MANIFEST.contains(&finding.rule)

@@ -1,11 +1,13 @@
 //! How much of the sky the fbm method covers: octaves drift apart, so the distribution of their sum is the convolution of theirs.
 
+use glam::Vec3;
 use welkin_pack::Texture;
 
 use super::map::{Octaves, weights};
-use super::{FULL, FbmUniforms};
+use super::{FULL, FbmUniforms, radiance_at};
 use crate::clouds::histogram::Histogram;
-use crate::clouds::shared::{inverse_roughen, inverse_smoothstep};
+use crate::clouds::shared::{CloudUniforms, inverse_roughen, inverse_smoothstep};
+use crate::geometry::math::smoothstep;
 
 /// The distribution of the weighted sum of a pack's octaves.
 pub(crate) fn sums(texture: &Texture) -> Histogram {
@@ -25,4 +27,23 @@ pub(crate) fn covered(sums: &Histogram, fbm: &FbmUniforms, opacity: f32) -> f32 
         let rough = 4.0 * fbm.roughness * (finer - fbm.mean);
         sums.above((inverse_roughen(cover, rough) - fbm.intercept) / fbm.slope)
     })
+}
+
+/// Mean opacity and radiance of its clouds: the sum of octaves is about normally distributed.
+pub(crate) fn mean(fbm: &FbmUniforms, clouds: &CloudUniforms, spread: f32) -> (f32, Vec3) {
+    /// Nodes a standard deviation, and how many each way.
+    const NODES: [i32; 2] = [4, 12];
+    let [fine, most] = NODES;
+    let (mut opacity, mut light, mut whole) = (0.0, Vec3::ZERO, 0.0);
+    for i in -most..=most {
+        let deviations = i as f32 / fine as f32;
+        let weight = (-0.5 * deviations * deviations).exp();
+        let amount = fbm.mean + spread * deviations;
+        let cover = (fbm.slope * amount + fbm.intercept).clamp(0.0, 1.0);
+        let alpha = weight * smoothstep(0.0, FULL, cover);
+        light += alpha * radiance_at(fbm, clouds, amount);
+        opacity += alpha;
+        whole += weight;
+    }
+    (opacity / whole, light / opacity.max(1e-6))
 }

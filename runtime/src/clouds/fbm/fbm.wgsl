@@ -15,6 +15,6 @@ fn fbm_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let shade = clamp(fbm.shade_strength * (cloud.r + FBM_ROUGH_SHADE * finer * cloud.a), 0.0, 1.0);
     let colour = mix(fbm.lit, fbm.shaded, shade);
     let tinted = colour * mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
-    let radiance = tinted * (uniforms.clouds.sunlight + uniforms.clouds.ambient);
+    let radiance = tinted * (cloud_facing(direction, alpha) * uniforms.clouds.sunlight + uniforms.clouds.ambient);
     return vec4f(radiance, alpha * cloud_clearness(direction));
 }

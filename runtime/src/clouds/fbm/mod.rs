@@ -181,7 +181,12 @@ fn normal_quantile(share: f32) -> f32 {
 
 /// Radiance of an overcast sky far away: every height along the ray is the mean one.
 pub fn overcast(fbm: &FbmUniforms, clouds: &CloudUniforms) -> Vec3 {
-    let height = fbm.slope * fbm.mean + fbm.ray_intercept;
+    radiance_at(fbm, clouds, fbm.mean)
+}
+
+/// Radiance of a place with this sum of octaves, where the sky around has its mean: heights along the ray are those of the map.
+fn radiance_at(fbm: &FbmUniforms, clouds: &CloudUniforms, amount: f32) -> Vec3 {
+    let height = fbm.slope * amount + fbm.ray_intercept;
     let inside = map::DEPTHS
         .iter()
         .map(|depth| (height - depth).max(0.0))

@@ -1,6 +1,6 @@
 //! How much of the sky the lit method covers: the blend of ranks is evenly distributed by construction.
 
-use super::{LitLayerUniforms, LitUniforms};
+use super::{LitLayerUniforms, LitUniforms, layer_opacity};
 use crate::clouds::histogram::Histogram;
 use crate::geometry::math::smoothstep;
 use crate::params::LAYERS_AN_ITERATION;
@@ -36,4 +36,12 @@ fn clearness(layer: &LitLayerUniforms, grain: f32) -> Histogram {
         1.0 - layer.opacity * rough.clamp(0.0, 1.0)
     });
     Histogram::of(clear)
+}
+
+/// Mean opacity of its clouds: grain roughens edges evenly.
+pub(crate) fn mean_opacity(lit: &LitUniforms) -> f32 {
+    let layers = lit.layers[..lit.count as usize].iter();
+    1.0 - layers
+        .map(|layer| 1.0 - layer_opacity(layer))
+        .product::<f32>()
 }

@@ -109,7 +109,11 @@ fn lit_layer(direction: vec3f, narrowing: f32) -> vec4f {
     }
     sum = lit_iteration(sum, 0, plane, level, through);
     let alpha = 1.0 - sum.clear;
-    var radiance = sum.sunlight * uniforms.lit.light + sum.skylight * uniforms.lit.ambient;
+    // A low sun lights the sides of clouds that are seen away from it, where eq. 3 knows their undersides alone.
+    let away = 0.5 - 0.5 * dot(direction, uniforms.lit.light_direction);
+    let sides = LIT_SIDES * uniforms.clouds.low_sun * away * sum.skylight;
+    let sunlight = sum.sunlight * cloud_facing(direction, alpha) + sides;
+    var radiance = sunlight * uniforms.lit.light + sum.skylight * uniforms.lit.ambient;
     if uniforms.clouds.sunset > 0.0 {
         radiance *= mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
     }

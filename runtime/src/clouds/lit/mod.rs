@@ -35,9 +35,9 @@ pub mod shadow;
 use glam::{DMat2, DVec2, Vec2, Vec3, Vec3Swizzles};
 use welkin_pack::LayerKind;
 
-use crate::clear_sky::light::{Light, luminary};
+use crate::clear_sky::light::Light;
 use crate::clouds::shared::{
-    CloudUniforms, CloudView, OPAQUE, inverse_smoothstep, offset, overcast_weight,
+    self, CloudUniforms, CloudView, OPAQUE, inverse_smoothstep, offset, overcast_weight,
 };
 use crate::geometry::dome::{self, Hit, Mesh};
 use crate::geometry::math::smoothstep;
@@ -56,6 +56,7 @@ pub const PART: Part = Part {
         ("LIT_BLUR_LEVEL", Value::F32(BLUR_LEVEL)),
         ("LIT_LONGEST_WAY", Value::F32(LONGEST_WAY)),
         ("LIT_FINER_START", Value::Vec2(FINER_START)),
+        ("LIT_SIDES", Value::F32(SIDES)),
         ("LIT_AMBIENT_SHADED", Value::F32(AMBIENT[0])),
         ("LIT_AMBIENT_BRIGHTER", Value::F32(AMBIENT[1])),
         ("LIT_BLUR", Value::Vec3(Vec3::from_array(BLUR))),
@@ -222,6 +223,9 @@ const EVENED: f32 = 0.65;
 const TRACE: f32 = 0.02;
 /// Cover of a layer from which it shuts: more than seven oktas, which are to be seven.
 const SHUTTING: f32 = 0.9;
+/// Light of a sun on the horizon on the sides of clouds opposite it, where shade leaves all: chosen by eye.
+pub const SIDES: f32 = 0.5;
+
 /// How much the cut goes below 0 in an overcast.
 const OVERCAST: f32 = 0.5;
 /// Azimuths over which eq. 4 is averaged around half of the horizon; the other half is the same.
@@ -260,7 +264,6 @@ pub fn uniforms(
     clouds: &CloudUniforms,
 ) -> LitUniforms {
     let own = &params.lit;
-    let light = luminary(light, own.moon);
     let sun = light.sun_direction;
     let f2 = own.flattening * own.flattening;
     let seen = intersect(own.flattening, sun).position;
@@ -275,7 +278,7 @@ pub fn uniforms(
         one_minus_squared: 1.0 - f2,
         count: count as f32,
         resolution: map::SIDE as f32,
-        light: light.sunlight * underside_light(params.cover),
+        light: clouds.sunlight,
         k1: own.k1,
         light_direction: sun,
         k2: own.k2,
@@ -300,11 +303,6 @@ pub(crate) fn height_m(params: &SkyParams, index: usize) -> f64 {
     let own = &params.lit;
     let height = own.layers[index].height;
     f64::from(own.radius_m) * f64::from(own.flattening) * f64::from(height)
-}
-
-/// Share of the light that an overcast sky lets through to its own underside.
-fn underside_light(cover: f32) -> f32 {
-    1.0 - crate::clouds::shared::SHADE * overcast_weight(cover)
 }
 
 /// The share of the sky that a layer covers: `1 - cover` is the product of what they leave open.
@@ -372,16 +370,76 @@ fn cut(cover: f32, steepness: f32, opacity: f32) -> f32 {
 
 /// Radiance of an overcast sky far away: layers where they have their mean, flat, around the whole horizon.
 pub fn overcast(lit: &LitUniforms) -> Vec3 {
-    let LitUniforms { k1, k2, m, .. } = *lit;
     let [lowest, ..] = &lit.layers;
     let thickness = (0.5 - lowest.threshold.max(0.0)).max(0.0);
-    let shade = (-m * lowest.shade_rate * thickness).exp2();
+    let shade = (-lit.m * lowest.shade_rate * thickness).exp2() * shade_from_above(lit, 0);
+    lit.light * (mean_light(lit) * shade) + lit.ambient * (AMBIENT[0] + AMBIENT[1] * shade)
+}
+
+/// Mean opacity of a layer.
+pub(crate) fn layer_opacity(layer: &LitLayerUniforms) -> f32 {
+    layer_means(layer, 0.0)[0]
+}
+
+/// Mean opacity of a layer, and the mean of what its clouds leave of the light.
+fn layer_means(layer: &LitLayerUniforms, m: f32) -> [f32; 2] {
+    const AMOUNTS: usize = 32;
+    let (mut opacity, mut left) = (0.0, 0.0);
+    for i in 0..AMOUNTS {
+        let thickness = ((i as f32 + 0.5) / AMOUNTS as f32 - layer.threshold.max(0.0)).max(0.0);
+        let cut = ((i as f32 + 0.5) / AMOUNTS as f32 - layer.threshold).max(0.0);
+        let alpha = layer.opacity * smoothstep(0.0, 1.0, layer.steepness * cut);
+        opacity += alpha;
+        left += alpha * (-m * layer.shade_rate * thickness).exp2();
+    }
+    [opacity / AMOUNTS as f32, left / opacity.max(1e-6)]
+}
+
+/// What layers over the one of an index leave of the light, on average.
+fn shade_from_above(lit: &LitUniforms, index: usize) -> f32 {
+    let above = lit.layers[..lit.count as usize].iter().skip(index + 1);
+    let left = above.map(|layer| 1.0 - SHADED_BY_LAYER * layer_opacity(layer));
+    left.product()
+}
+
+/// Sunlight of a flat cloud around the whole horizon: what falls on it and the mean of eq. 4.
+fn mean_light(lit: &LitUniforms) -> f32 {
     let sun = lit.light_direction;
     let level = sun.xz().length();
     let azimuth_rad = |i: u32| (i as f32 + 0.5) / AZIMUTHS as f32 * std::f32::consts::PI;
-    let through = (0..AZIMUTHS).map(|i| (k1 + k2 * level * azimuth_rad(i).cos()).max(0.0).powf(m));
-    let light = sun.y.max(0.0) + through.sum::<f32>() / AZIMUTHS as f32;
-    lit.light * (light * shade) + lit.ambient * (AMBIENT[0] + AMBIENT[1] * shade)
+    let through = (0..AZIMUTHS).map(|i| through(lit, level * azimuth_rad(i).cos()));
+    sun.y.max(0.0) + through.sum::<f32>() / AZIMUTHS as f32
+}
+
+/// Eq. 4 over L, by the cosine to the sun.
+fn through(lit: &LitUniforms, cosine: f32) -> f32 {
+    (lit.k1 + lit.k2 * cosine).max(0.0).powf(lit.m)
+}
+
+/// Mean radiance of the clouds that are there, where [`facing`] is 1: every layer shows through those below it.
+pub(crate) fn mean_radiance(lit: &LitUniforms) -> Vec3 {
+    let (mut sum, mut clear) = (Vec3::ZERO, 1.0);
+    for (index, layer) in lit.layers[..lit.count as usize].iter().enumerate() {
+        let [opacity, shade] = layer_means(layer, lit.m);
+        let shade = shade * shade_from_above(lit, index);
+        let radiance = lit.light * shade + lit.ambient * (AMBIENT[0] + AMBIENT[1] * shade);
+        sum += radiance * (clear * opacity);
+        clear *= 1.0 - opacity;
+    }
+    sum / (1.0 - clear).max(1e-6)
+}
+
+/// Share of sunlight along a direction: see the end of lit.wgsl.
+pub(crate) fn facing(
+    lit: &LitUniforms,
+    clouds: &CloudUniforms,
+    direction: Vec3,
+    opacity: f32,
+) -> f32 {
+    let cosine = direction.dot(lit.light_direction);
+    let falls = lit.light_direction.y.max(0.0);
+    let sides = SIDES * clouds.low_sun * (0.5 - 0.5 * cosine) * (AMBIENT[0] + AMBIENT[1]);
+    (falls + through(lit, cosine)) * shared::facing(clouds, cosine, opacity) + sides
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 use glam::DVec3;
 
 use super::*;
-use crate::clear_sky::light::MOONLIGHT;
 use crate::params::LitParams;
 
 const LIGHT: Light = Light {
@@ -11,6 +10,12 @@ const LIGHT: Light = Light {
     sunlight: Vec3::ONE,
     skylight: Vec3::splat(0.2),
     night: 0.0,
+    ground_sunlight: Vec3::ONE,
+    disc: Vec3::ONE,
+    sky_on_ground: Vec3::ONE,
+    dark: 1.0,
+    unit_cd_m2: 32_000.0,
+    is_moon: false,
 };
 
 fn at(params: &SkyParams, seconds: f64, place_m: DVec3) -> LitUniforms {
@@ -120,27 +125,4 @@ fn every_layer_moves_by_itself_and_a_walk_moves_them_alike() {
         before.layers[0].second_offset,
         after.layers[0].second_offset
     );
-}
-
-#[test]
-fn the_moon_takes_over_where_the_sun_gives_nothing() {
-    let at = |sin: f32| {
-        let sun_direction = Vec3::new((1.0 - sin * sin).sqrt(), sin, 0.0);
-        let sunlight = Vec3::splat(smoothstep(-0.09, 0.12, sin));
-        luminary(
-            &Light {
-                sun_direction,
-                sunlight,
-                ..LIGHT
-            },
-            1.0,
-        )
-    };
-    assert!(at(-0.05).sun_direction.y < 0.0 && at(-0.05).sunlight.x > 0.0);
-    // At the change both are dark: no step.
-    assert_eq!(at(-0.0999).sunlight, Vec3::ZERO);
-    assert!(at(-0.1001).sunlight.max_element() < 1e-4);
-    let night = at(-0.8);
-    assert!((night.sun_direction.y - 0.8).abs() < 1e-6);
-    assert!((night.sunlight - MOONLIGHT).abs().max_element() < 1e-6);
 }

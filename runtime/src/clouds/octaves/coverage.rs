@@ -65,3 +65,21 @@ fn clearness(dome: &OctaveDome, of_thickness: impl Fn(f32) -> f32) -> Vec<[f32; 
     let clouds = (0..DOME_NODES).map(node).filter(|[share, _]| *share > 0.0);
     [[open, 1.0]].into_iter().chain(clouds).collect()
 }
+
+/// Mean opacity of its clouds. Finer reads roughen edges evenly.
+pub(crate) fn mean_opacity(octaves: &OctaveUniforms) -> f32 {
+    let mean = |dome: &OctaveDome, opacity: &dyn Fn(f32) -> f32| {
+        let nodes = (0..NODES).map(|i| (i as f32 + 0.5) / NODES as f32 - dome.threshold);
+        nodes
+            .map(|thickness| opacity(thickness.max(0.0)))
+            .sum::<f32>()
+            / NODES as f32
+    };
+    let full = |exponent: f32, thickness: f32| softened(1.0 - (exponent * thickness).exp2(), EDGE);
+    let low = mean(&octaves.low, &|t| full(octaves.exponent, t));
+    let middle = mean(&octaves.middle, &|t| full(THIN * octaves.exponent, t));
+    let high = mean(&octaves.high, &|t| {
+        smoothstep(0.0, 1.0, t * octaves.high_contrast)
+    });
+    1.0 - (1.0 - low) * (1.0 - MIDDLE_OPACITY * middle) * (1.0 - HIGH_OPACITY * high)
+}

@@ -44,6 +44,7 @@ fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
         let alpha = OCTAVE_HIGH_OPACITY * full * full * (3.0 - 2.0 * full);
         clear *= 1.0 - alpha;
     }
-    let radiance = cloud_light(cloud_tinted(clamp(grey, 0.0, 1.0), cloud_tint(direction)));
+    let tinted = cloud_tinted(clamp(grey, 0.0, 1.0), cloud_tint(direction));
+    let radiance = cloud_light(tinted, cloud_facing(direction, 1.0 - clear));
     return vec4f(radiance, (1.0 - clear) * cloud_clearness(direction));
 }

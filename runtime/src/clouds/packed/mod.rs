@@ -166,9 +166,14 @@ pub fn overcast(packed: &PackedUniforms, clouds: &CloudUniforms, means: [f32; 3]
     let [photo, noise, detail] = means;
     let amount = photo + noise * (1.0 - photo);
     let alpha = ((amount - packed.threshold) * packed.contrast).max(0.0);
-    let beyond = amount + detail * (1.0 - amount) + packed.density * alpha * 2.0 - 1.0;
-    let grey = 1.0 + beyond - 0.75 * (beyond + (beyond * beyond + FOLD * FOLD).sqrt());
+    let grey = fold(amount + detail * (1.0 - amount) + packed.density * alpha * 2.0);
     radiance(clouds, grey.clamp(0.0, 1.0))
+}
+
+/// `packed_fold` of the shader: lines 22-23 with the kink rounded off.
+fn fold(grey: f32) -> f32 {
+    let beyond = grey - 1.0;
+    grey - 0.75 * (beyond + (beyond * beyond + FOLD * FOLD).sqrt())
 }
 
 #[cfg(test)]

@@ -18,8 +18,8 @@ fn packed_veil(hit: DomeHit, level: f32) -> f32 {
 }
 
 // Its radiance: white under the sunset tint.
-fn packed_white(tint: f32) -> vec3f {
-    return cloud_light(mix(vec3f(1.0), uniforms.clouds.tint, tint));
+fn packed_white(tint: f32, direction: vec3f) -> vec3f {
+    return cloud_light(mix(vec3f(1.0), uniforms.clouds.tint, tint), cloud_facing(direction, 0.0));
 }
 
 // Radiance and opacity of the clouds along a unit direction above the horizon.
@@ -46,13 +46,13 @@ fn packed_layer(direction: vec3f, narrowing: f32) -> vec4f {
     alpha = clamp(alpha + thick, 0.0, 1.0);                          // line 25
     grey = clamp(packed_fold(grey), 0.0, 1.0);                        // lines 22-25
     let tinted = mix(vec3f(grey), uniforms.clouds.tint, tint);   // lines 26-27
-    var radiance = cloud_light(tinted);                              // line 28
+    var radiance = cloud_light(tinted, cloud_facing(direction, alpha)); // line 28
 
     alpha = cloud_soften(alpha, PACKED_EDGE);
     if UPPER_LAYER {
         let veil = packed_veil(hit, level);
         let over = alpha + veil * (1.0 - alpha);
-        radiance = mix(packed_white(tint), radiance, alpha / max(over, 1e-4));
+        radiance = mix(packed_white(tint, direction), radiance, alpha / max(over, 1e-4));
         alpha = over;
     }
     return vec4f(radiance, alpha * cloud_clearness(direction));

@@ -147,8 +147,7 @@ fn radiance_of_sprites_agrees_in_a_float_target() {
     let pack = field::two_clouds();
     let mut sky = gpu::sky(pack, format);
     let twin = Twin::new(pack);
-    let [clouds, gradient, sheet] =
-        [Role::Clouds, Role::Sky, Role::Sprites].map(|role| Texture::new(pack, role));
+    let [clouds, sheet] = [Role::Clouds, Role::Sprites].map(|role| Texture::new(pack, role));
     let outlines = outlines(pack.texture(Role::Sprites).unwrap());
     for (name, params, camera) in cases() {
         sky.reset_history();
@@ -168,7 +167,7 @@ fn radiance_of_sprites_agrees_in_a_float_target() {
             uniforms,
             view: &view,
             clouds: &clouds,
-            sky: &gradient,
+            sky: &frame.sky,
             sheet: &sheet,
             outlines: &outlines,
         };

@@ -10,12 +10,14 @@ use welkin_tests::{compare, gpu, pack, tonemap};
 use skies::{Case, SIZE, camera, common_skies, skies, toned_skies};
 
 /// What radiance may differ by, for each pixel and its expected value, where each read of clouds is off by up to `off`: what
-/// that is worth; 2 % for half floats (2^-11), bilinear weights of 8 bits, the exponentials of a GPU (2^-11) and
-/// 8-bit filtering of galaxy and sun; and the least that a half float tells in the dark.
+/// that is worth, and what the sun's read is; 2 % for half floats (2^-11), bilinear weights of 8 bits, the exponentials of a GPU (2^-11) and
+/// 8-bit filtering of the galaxy; and the least that a half float tells in the dark.
 fn allowed(frame: &mut Frame, off: &[f32], expected: &[Vec3]) -> Vec<Vec3> {
     let behind = frame.behind();
     let worth = frame.worth_of_reads(off, |frame| frame.clouds_over(&behind));
-    let others = expected.iter().map(|e| 0.02 * e.abs() + 1e-4);
+    let sun = frame.worth_of_sun().into_iter();
+    let others = expected.iter().zip(sun);
+    let others = others.map(|(e, sun)| 0.02 * e.abs() + sun + 1e-4);
     worth.iter().zip(others).map(|(w, o)| *w + o).collect()
 }
 
@@ -78,7 +80,7 @@ fn pictures_agree_in_8_bit_targets() {
         wgpu::TextureFormat::Rgba8Unorm,
     ];
     let mut targets = formats.map(|format| (format, gpu::sky(pack::default_pack(), format)));
-    let twin = Twin::new(pack::default_pack());
+    let twin = Twin::for_display(pack::default_pack());
     for Case {
         name,
         params,

@@ -207,7 +207,6 @@ fn options_of_another_method_are_refused_and_say_whose_they_are() {
         ("--k1", "0.5", vec!["lit"]),
         ("--k2", "0.5", vec!["lit"]),
         ("--m", "2", vec!["lit"]),
-        ("--moon", "0", vec!["lit"]),
         ("--shadow", "s.png", vec!["lit"]),
         ("--behind", "fbm", vec!["sprites"]),
         ("--behind-cover", "0.5", vec!["sprites"]),

@@ -1,3 +1,5 @@
+use std::f64::consts::PI;
+
 use glam::{DVec3, Vec3};
 
 use super::super::cubemap::tests::{at_centres, directions, rough_sky, texels};

@@ -75,5 +75,5 @@ fn what_is_out_of_range_is_refused_with_the_range() {
         }
     }
     let error = read(&["--sky", "hosek"]).unwrap_err();
-    assert!(error.contains("gradient, perez"), "{error}");
+    assert!(error.contains("table, perez"), "{error}");
 }

@@ -164,8 +164,6 @@ fn dome_and_light_reach_the_sky() {
         "0.2",
         "--m",
         "4",
-        "--moon",
-        "0.5",
         "--formation-interval",
         "12.5",
     ];
@@ -175,7 +173,6 @@ fn dome_and_light_reach_the_sky() {
         k1: 0.1,
         k2: 0.2,
         m: 4.0,
-        moon: 0.5,
         formation_interval_s: 12.5,
         ..LitParams::default()
     };

@@ -1,0 +1,14 @@
+// The ground below the horizon, seen through the air. CPU part: ground.rs.
+
+// What is seen along a direction below the horizon, where the sky's radiance is `horizon`.
+fn ground_seen(horizon: vec3f, direction: vec3f) -> vec3f {
+    let ground = uniforms.ground;
+    let away = 1.0 / max(-direction.y, 1e-6);
+    let uv = ground.place + direction.xz * (away * ground.height_tiles);
+    // A pixel covers the square of the distance: as much more along the view as it is flatter.
+    let noise = textureSampleLevel(clouds_texture, repeat_sampler, uv, ground.lod + 2.0 * log2(away)).b;
+    let facing = 1.0 - GROUND_BACKSCATTER * dot(direction, uniforms.sky.sun_direction);
+    let lit = ground.skylit + ground.sunlit * (facing / (ground.sun_sin - direction.y));
+    let radiance = lit * (1.0 + GROUND_MOTTLING * (noise - ground.noise_mean));
+    return mix(horizon, radiance, exp2(-ground.depth * away));
+}

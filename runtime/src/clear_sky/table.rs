@@ -1,0 +1,396 @@
+//! The clear sky of [`crate::params::SkyModel::Table`]: the pack's table, read at the sun's elevation.
+//!
+//! # Theory
+//! The baker computed radiance for each elevation of the sun, over elevation of view and azimuth from the sun; the aureole apart, as the
+//! light that the aerosol's phase function is multiplied by: see [`welkin_pack::mapping::sky_to_texel`]. Between suns and between
+//! hazes everything is linear, so a frame needs one layer, the mean of four, which the CPU makes ([`SkyView`]). By night it is the
+//! sky of the full moon: the same air, lit by less.
+//!
+//! # Changes versus the paper
+//! Roden and Parberry blend one blue gradient with the night; this one knows the hour and the side of the sun. Under an overcast sky there
+//! is no blue left to see: it takes the mean colour of the clouds.
+//!
+//! # Practice
+//! What the aureole is multiplied by hardly has an azimuth while the sun is up: a frame keeps its colour by elevation below the sun, and by direction how much
+//! of it there is, as the alpha of the radiance. One read, and a colour from the uniforms.
+//!
+//! A view is some 30 microseconds of one core, and 4 KB to upload, when hour or haze change; a pixel reads it once and takes four
+//! roots and two reciprocal ones.
+
+use glam::{Vec2, Vec3, Vec4};
+use half::f16;
+use welkin_pack::air::AUREOLE_LOBES;
+use welkin_pack::mapping::{
+    SKY_HAZES, SKY_PARTS, SkyLayer, sky_to_texel, sun_to_layer, texel_to_sky,
+};
+use welkin_pack::{Image, Texture};
+
+use crate::geometry::math::luminance;
+use crate::geometry::part::{Part, Value};
+use crate::geometry::uniforms::uniforms;
+
+/// Its part of the shader.
+pub const PART: Part = Part {
+    constants: &[
+        ("AUREOLE_WIDE", Value::Vec2(lobe(AUREOLE_LOBES[1]))),
+        ("AUREOLE_ROWS", Value::U32(AUREOLE_ROWS as u32)),
+        ("AUREOLE_NARROW", Value::Vec2(lobe(AUREOLE_LOBES[0]))),
+    ],
+    structs: &[SkyUniforms::WGSL],
+    wgsl: include_str!("table.wgsl"),
+};
+
+uniforms! {
+    /// Clear sky.
+    SkyUniforms {
+        /// Unit direction towards the sun, or by night the moon.
+        sun_direction: Vec3,
+        /// Weight of the night sky.
+        night: f32,
+        /// Radiance of an overcast sky.
+        overcast: Vec3,
+        /// How far the sky is overcast.
+        overcast_weight: f32,
+        /// Texture coordinates of the first texel's centre.
+        start: Vec2,
+        /// How far the last one's is from there.
+        span: Vec2,
+        /// What the aureole's phase function is multiplied by below the sun, in even steps of the root of the root of the elevation.
+        aureole: [Vec4; AUREOLE_ROWS],
+        /// How much brighter a storm is at the horizon, where light comes in from beyond it.
+        slit: f32,
+        /// Nothing.
+        _pad: f32,
+        /// Nothing.
+        _pad2: Vec2,
+    }
+}
+
+/// Rows of the aureole's colour: as many as the default table has.
+pub const AUREOLE_ROWS: usize = 32;
+
+/// The most of it: beyond, in the shade of the earth, there is next to nothing below the sun either.
+const MOST_SHARE: f32 = 4.0;
+
+/// The earth's radius over that of the layer of airglow, 90 km higher.
+const AIRGLOW_RADII: f32 = 6371.0 / 6461.0;
+/// Optical depth of air as eyes see at night.
+const AIRGLOW_DEPTH: f32 = 0.12;
+
+/// Of a lobe of the aureole: what `(b - cosine)^-1.5` is multiplied by, and b.
+const fn lobe([weight, g]: [f32; 2]) -> [f32; 2] {
+    // The power 1.5 of 2 g, by three of Newton's steps for the root: no root is const.
+    let two_g = 2.0 * g;
+    let mut root = 1.3_f32;
+    let mut i = 0;
+    while i < 4 {
+        root = 0.5 * (root + two_g / root);
+        i += 1;
+    }
+    let scale = weight * (1.0 - g * g) / (4.0 * std::f32::consts::PI * two_g * root);
+    [scale, (1.0 + g * g) / two_g]
+}
+
+/// The phase function of a lobe of the aureole, 0 the narrow one, 1 the wide one: as the shader has it.
+pub fn aureole_lobe(index: usize, cosine: f32) -> f32 {
+    const LOBES: [[f32; 2]; 2] = [lobe(AUREOLE_LOBES[0]), lobe(AUREOLE_LOBES[1])];
+    let [scale, b] = LOBES[index];
+    let beyond = b - cosine.min(1.0);
+    scale / (beyond * beyond.sqrt())
+}
+
+/// The pack's table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SkyTable {
+    size: [u32; 2],
+    suns: u32,
+    /// Optical depths of the aerosol.
+    pub aerosol_depths: [f32; 2],
+    /// Texels, layer after layer.
+    texels: Vec<Vec3>,
+    /// Sine of the elevation of each row.
+    sines: Vec<f32>,
+    /// Cosine of the azimuth from the sun of each column.
+    azimuth_cosines: Vec<f32>,
+    /// Solid angle of each texel of a layer, both sides of the sun together.
+    weights: Vec<f32>,
+}
+
+impl SkyTable {
+    /// Decodes the texture of the role `sky`.
+    pub fn new(texture: &Texture, aerosol_depths: [f32; 2]) -> SkyTable {
+        let layers = (0..texture.layers).map(|layer| texture.image(0, layer));
+        let texels = layers.flat_map(|image| {
+            let texels = image.texels.chunks_exact(4);
+            texels
+                .map(|t| Vec3::new(t[0], t[1], t[2]))
+                .collect::<Vec<_>>()
+        });
+        let size = [texture.width, texture.height];
+        SkyTable {
+            size,
+            suns: texture.layers / (SKY_HAZES * SKY_PARTS),
+            aerosol_depths,
+            texels: texels.collect(),
+            sines: (0..size[1])
+                .map(|y| texel_to_sky([0.0, y as f32], size).0)
+                .collect(),
+            azimuth_cosines: (0..size[0])
+                .map(|x| texel_to_sky([x as f32, 0.0], size).1.clamp(-1.0, 1.0))
+                .collect(),
+            weights: solid_angles(size),
+        }
+    }
+
+    /// Optical depth of the aerosol at a haze of 0..1.
+    pub fn aerosol_depth(&self, haze: f32) -> f32 {
+        let [clear, hazy] = self.aerosol_depths;
+        clear + (hazy - clear) * haze
+    }
+
+    /// The sky with the sun at an elevation, and a haze of 0..1.
+    pub fn view(&self, sun_elevation_rad: f32, haze: f32) -> SkyView {
+        let place = sun_to_layer(sun_elevation_rad, self.suns);
+        let sun = (place as u32).min(self.suns - 2);
+        let share = place - sun as f32;
+        let texels = (self.size[0] * self.size[1]) as usize;
+        let part = |part| {
+            let layer = |haze, sun| {
+                let start = SkyLayer { haze, sun, part }.index(self.suns) as usize * texels;
+                &self.texels[start..start + texels]
+            };
+            let [[a, b], [c, d]] = [0, 1].map(|haze| [sun, sun + 1].map(|sun| layer(haze, sun)));
+            let between = |i: usize| a[i].lerp(b[i], share).lerp(c[i].lerp(d[i], share), haze);
+            (0..texels).map(between).collect()
+        };
+        SkyView {
+            size: self.size,
+            radiance: part(0),
+            aureole: part(1),
+        }
+    }
+
+    /// Mean radiance over the hemisphere, and irradiance of a horizontal plane over pi, of a view with the sun at that elevation.
+    pub fn means(&self, view: &SkyView, sun_elevation_rad: f32) -> [Vec3; 2] {
+        let (sun_sin, sun_cos) = sun_elevation_rad.sin_cos();
+        let (mut mean, mut horizontal, mut whole) = (Vec3::ZERO, Vec3::ZERO, 0.0);
+        for at in self.samples(view) {
+            let flat = (1.0 - at.sine * at.sine).max(0.0).sqrt();
+            let cosine = (at.sine * sun_sin + flat * sun_cos * at.azimuth_cos).clamp(-1.0, 1.0);
+            let phase = aureole_lobe(0, cosine) + aureole_lobe(1, cosine);
+            let light = at.radiance + at.aureole * phase;
+            mean += light * at.solid_angle;
+            horizontal += light * (at.solid_angle * at.sine);
+            whole += at.solid_angle;
+        }
+        [mean / whole, horizontal / std::f32::consts::PI]
+    }
+}
+
+/// A texel of a view, for the sky on both sides of the sun.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkySample {
+    /// Sine of the elevation.
+    pub sine: f32,
+    /// Cosine of the azimuth from the sun.
+    pub azimuth_cos: f32,
+    /// Solid angle of both sides together, in steradians.
+    pub solid_angle: f32,
+    /// Radiance without the aureole.
+    pub radiance: Vec3,
+    /// What the aureole's phase function is multiplied by.
+    pub aureole: Vec3,
+}
+
+impl SkyTable {
+    /// How many azimuths a row has.
+    pub fn azimuths(&self) -> usize {
+        self.size[0] as usize
+    }
+
+    /// The texels of a view, row by row from the horizon to the zenith.
+    pub fn samples<'a>(&'a self, view: &'a SkyView) -> impl Iterator<Item = SkySample> + 'a {
+        let [width, _] = self.size;
+        self.weights
+            .iter()
+            .enumerate()
+            .map(move |(i, &solid_angle)| {
+                let width = width as usize;
+                SkySample {
+                    sine: self.sines[i / width],
+                    azimuth_cos: self.azimuth_cosines[i % width],
+                    solid_angle,
+                    radiance: view.radiance[i],
+                    aureole: view.aureole[i],
+                }
+            })
+    }
+}
+
+/// Solid angles of the texels of a layer: each reaches half way to its neighbours.
+fn solid_angles(size: [u32; 2]) -> Vec<f32> {
+    let [width, height] = size;
+    let around = |i: u32, last: u32| [(i as f32 - 0.5).max(0.0), (i as f32 + 0.5).min(last as f32)];
+    let azimuth = |x: f32| texel_to_sky([x, 0.0], size).1.clamp(-1.0, 1.0).acos();
+    let sine = |y: f32| texel_to_sky([0.0, y], size).0;
+    let mut weights = Vec::with_capacity((width * height) as usize);
+    for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
+        let [left, right] = around(x, width - 1).map(azimuth);
+        let [low, high] = around(y, height - 1).map(sine);
+        weights.push(2.0 * (right - left) * (high - low));
+    }
+    weights
+}
+
+/// The clear sky of a moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SkyView {
+    size: [u32; 2],
+    /// Without the aureole.
+    radiance: Vec<Vec3>,
+    /// What its phase function is multiplied by.
+    aureole: Vec<Vec3>,
+}
+
+impl SkyView {
+    /// Dims it by a colour.
+    pub fn scaled(mut self, colour: Vec3) -> SkyView {
+        for light in self.radiance.iter_mut().chain(&mut self.aureole) {
+            *light *= colour;
+        }
+        self
+    }
+
+    /// Takes some of its colour, 0..1.
+    pub fn faded(mut self, share: f32) -> SkyView {
+        for light in self.radiance.iter_mut().chain(&mut self.aureole) {
+            *light = light.lerp(Vec3::splat(luminance(*light)), share);
+        }
+        self
+    }
+
+    /// Adds light that comes from a thin layer of high air, of that radiance straight up.
+    ///
+    /// A layer at 90 km is seen the longer way through the lower it is (P. J. van Rhijn, "On the brightness of the sky at night and the total
+    /// amount of starlight", 1921), and air takes the more of it (air mass by G. V. Rozenberg, "Twilight", 1966).
+    pub fn add_airglow(&mut self, radiance: Vec3) {
+        let [width, height] = self.size;
+        for y in 0..height {
+            let sine = texel_to_sky([0.0, y as f32], self.size).0;
+            let level = AIRGLOW_RADII * AIRGLOW_RADII * (1.0 - sine * sine);
+            let air_mass = 1.0 / (sine + 0.025 * (-11.0 * sine).exp());
+            let seen =
+                radiance * ((-AIRGLOW_DEPTH * (air_mass - 1.0)).exp() / (1.0 - level).sqrt());
+            let row = (y * width) as usize;
+            for light in &mut self.radiance[row..row + width as usize] {
+                *light += seen;
+            }
+        }
+    }
+
+    /// Adds the sky of a luminary opposite, without its aureole.
+    pub fn add_opposite(&mut self, other: &SkyView) {
+        let [width, height] = self.size;
+        for y in 0..height {
+            for x in 0..width {
+                // The sine of half the azimuth from the one is the cosine of half that from the other.
+                let (sine, azimuth_cos) = texel_to_sky([x as f32, y as f32], self.size);
+                let [u, _] = sky_to_texel(sine, -azimuth_cos, self.size);
+                let left = (u as u32).min(width - 2);
+                let row = (y * width) as usize;
+                let [a, b] = [left, left + 1].map(|x| other.radiance[row + x as usize]);
+                self.radiance[row + x as usize] += a.lerp(b, u - left as f32);
+            }
+        }
+    }
+
+    /// The picture that the shader reads: radiance, and in alpha how much there is of the aureole's light, over that below the sun.
+    pub fn image(&self) -> Image {
+        let [width, height] = self.size;
+        let mut image = Image::new(width, height, 4);
+        for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
+            let i = (y * width + x) as usize;
+            let below = luminance(self.aureole[(y * width) as usize]);
+            let share = luminance(self.aureole[i]) / below.max(1e-9);
+            // As half floats have it, so that twins read what the device reads.
+            let texel = self.radiance[i].extend(share.min(MOST_SHARE)).to_array();
+            let halves = texel.map(|c| f16::from_f32(c).to_f32());
+            image.texel_mut(x, y).copy_from_slice(&halves);
+        }
+        image
+    }
+
+    /// What the aureole's phase function is multiplied by below the sun, from the horizon to the zenith.
+    fn aureole_rows(&self) -> [Vec4; AUREOLE_ROWS] {
+        let [width, height] = self.size;
+        let row = |y: u32| self.aureole[(y.min(height - 1) * width) as usize];
+        std::array::from_fn(|i| {
+            let place = i as f32 / (AUREOLE_ROWS - 1) as f32 * (height - 1) as f32;
+            let low = place as u32;
+            row(low).lerp(row(low + 1), place - low as f32).extend(0.0)
+        })
+    }
+
+    /// Size of its picture.
+    pub fn image_size(table: &SkyTable) -> [u32; 2] {
+        table.size
+    }
+}
+
+/// The clear sky's share of the uniforms.
+///
+/// `direction` is that of the luminary, `night` the share of the night sky that is drawn, `overcast` the radiance of an overcast sky,
+/// `overcast_weight` how overcast it is, `slit` how much brighter that is at the horizon.
+pub fn uniforms(
+    view: &SkyView,
+    direction: Vec3,
+    night: f32,
+    overcast: Vec3,
+    overcast_weight: f32,
+    slit: f32,
+) -> SkyUniforms {
+    let [width, height] = view.size.map(|side| side as f32);
+    SkyUniforms {
+        sun_direction: direction,
+        night,
+        overcast,
+        overcast_weight,
+        slit,
+        start: Vec2::new(0.5 / width, 0.5 / height),
+        span: Vec2::new((width - 1.0) / width, (height - 1.0) / height),
+        aureole: view.aureole_rows(),
+        ..Default::default()
+    }
+}
+
+/// Texel of a picture as the device stores it: four half floats.
+pub(crate) fn halves(image: &Image) -> Vec<u8> {
+    let bytes = |value: &f32| f16::from_f32(*value).to_le_bytes();
+    image.texels.iter().flat_map(bytes).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use welkin_pack::air::aureole_phase;
+
+    use super::*;
+
+    #[test]
+    fn lobes_are_those_of_the_phase_function() {
+        for cosine in [-1.0_f32, -0.3, 0.5, 0.9, 0.999, 1.0] {
+            let lobes = AUREOLE_LOBES.map(|l| lobe(l)[0] * (lobe(l)[1] - cosine).powf(-1.5));
+            let found = lobes[0] + lobes[1];
+            // The narrow lobe's b is 1.000165: the difference from 1 keeps four digits.
+            assert!(
+                (found / aureole_phase(cosine) - 1.0).abs() < 2e-3,
+                "{cosine}: {found}"
+            );
+        }
+    }
+
+    #[test]
+    fn solid_angles_are_a_hemisphere() {
+        let whole: f32 = solid_angles([16, 32]).iter().sum();
+        assert!((whole - std::f32::consts::TAU).abs() < 1e-4, "{whole}");
+    }
+}
