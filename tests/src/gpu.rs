@@ -234,6 +234,40 @@ impl Gpu {
     }
 }
 
+/// A pipeline of a test's own WGSL, by the names of its vertex and its fragment stage: nothing but triangles into one target.
+pub fn pipeline(
+    wgsl: &str,
+    [vertex, fragment]: [&str; 2],
+    format: wgpu::TextureFormat,
+) -> wgpu::RenderPipeline {
+    let device = &gpu().device;
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+    });
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: None,
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some(vertex),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: None,
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(fragment),
+            compilation_options: Default::default(),
+            targets: &[Some(format.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
 /// [`Gpu::target`] on the device of this test program.
 pub fn target(format: wgpu::TextureFormat, size: [u32; 2], sample_count: u32) -> wgpu::Texture {
     gpu().target(format, size, sample_count)

@@ -1,5 +1,7 @@
 //! The colour of spectra.
 
+use std::sync::LazyLock;
+
 use super::layers::{CLEAR_AEROSOL_DEPTH, WHITE_ELEVATION_RAD, sun_transmittance};
 use super::spectrum::{COUNT, SUN, Spectrum, WAVELENGTHS_NM};
 
@@ -35,6 +37,12 @@ impl Colour {
         let white = plain.rgb(&sun_transmittance(WHITE_ELEVATION_RAD, CLEAR_AEROSOL_DEPTH));
         let level = luminance(white);
         plain.scaled(white.map(|channel| level / channel))
+    }
+
+    /// The same, made once: for what asks every frame.
+    pub fn daylight() -> &'static Colour {
+        static DAYLIGHT: LazyLock<Colour> = LazyLock::new(Colour::new);
+        &DAYLIGHT
     }
 
     /// Without any white balance: of sunlight as it is above the air, which has a luminance of 1.

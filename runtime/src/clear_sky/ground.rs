@@ -139,7 +139,7 @@ pub(crate) fn extinctions_per_km(aerosol_depth: f32, shut: f32) -> [Vec3; 2] {
 
 /// A coefficient of red, green and blue: the mean over the wavelengths, weighed by what they add to each in white light.
 fn extinction(spectrum: welkin_pack::air::Spectrum) -> Vec3 {
-    let colour = Colour::new();
+    let colour = Colour::daylight();
     // A thin layer: of 1 - T the slope at nothing is the coefficient.
     let thin = 1e-2;
     let through = Vec3::from(colour.rgb(&spectrum.map(|s| 1.0 - thin * s)));

@@ -36,7 +36,7 @@ const AEROSOL_ABOVE_CLOUDS: f32 = 0.19;
 pub const SUN_RADIUS_RAD: f32 = 0.004_653;
 
 /// Light at one moment. Colours are linear BT.709, in the unit of the hour.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Light {
     /// Unit direction towards the sun, or by night the moon.
     pub sun_direction: Vec3,
@@ -117,7 +117,9 @@ impl LitSky {
             light.is_moon = true;
             light.dark = 1.0 - MOON_HIDES * up;
         }
-        view.add_airglow(AIRGLOW * night);
+        if night > 0.0 {
+            view.add_airglow(AIRGLOW * night);
+        }
         let [mean, on_ground] = table.means(&view, luminary_rad);
         light.skylight = mean;
         light.sky_on_ground = on_ground;
@@ -135,7 +137,7 @@ fn white_sunlight(unit_cd_m2: f32) -> Vec3 {
 }
 
 fn sunlight(elevation_rad: f32, aerosol_depth: f32, unit_cd_m2: f32) -> Vec3 {
-    let rgb = Colour::new().rgb(&sun_transmittance(elevation_rad, aerosol_depth));
+    let rgb = Colour::daylight().rgb(&sun_transmittance(elevation_rad, aerosol_depth));
     Vec3::from(rgb) * (SUN_ILLUMINANCE_LX / std::f32::consts::PI / unit_cd_m2)
 }
 

@@ -74,7 +74,7 @@ const GLARE: f32 = 0.1;
 pub const GLARE_CORE: f32 = SUN_RADIUS_RAD * SUN_RADIUS_RAD;
 
 /// The sun's share of the uniforms. `texels` is the side of the texture, `pixel_rad` that of a pixel; `shown` is
-/// whether it is drawn at all.
+/// whether it is drawn at all, `lens` whether what a lens scatters is.
 pub fn uniforms(
     light: &Light,
     rays: &Rays,
@@ -82,6 +82,7 @@ pub fn uniforms(
     levels: usize,
     pixel_rad: f32,
     shown: bool,
+    lens: bool,
 ) -> SunUniforms {
     let radius = SUN_RADIUS_RAD.max(LEAST_RADIUS_PX * pixel_rad);
     // Half the texture's side is the disc's edge (see the role's channel meanings).
@@ -99,7 +100,12 @@ pub fn uniforms(
         up: up / half_side,
         lod,
         disc: light.disc / (radius * radius * MEAN_DISC),
-        glare: light.ground_sunlight * (if is_shown { glare_of_white() } else { 0.0 }),
+        glare: light.ground_sunlight
+            * (if is_shown && lens {
+                glare_of_white()
+            } else {
+                0.0
+            }),
         direction: light.sun_direction,
         ..Default::default()
     }

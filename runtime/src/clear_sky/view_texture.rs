@@ -1,12 +1,13 @@
 //! The clear sky of the moment on a device.
 
-use crate::clear_sky::table::{SkyView, halves};
+use crate::clear_sky::light::LitSky;
+use crate::clear_sky::table::halves;
 
-/// The texture that the shader reads the clear sky from, and what was written to it last.
+/// The texture that the shader reads the clear sky from, and the light that goes with what is in it.
 #[derive(Debug)]
 pub(crate) struct ViewTexture {
     pub texture: wgpu::Texture,
-    written: Option<SkyView>,
+    written: Option<([f32; 3], LitSky)>,
 }
 
 impl ViewTexture {
@@ -32,12 +33,24 @@ impl ViewTexture {
         }
     }
 
-    /// Writes a view, unless it is there.
-    pub fn write(&mut self, queue: &wgpu::Queue, view: &SkyView) {
-        if self.written.as_ref() == Some(view) {
-            return;
-        }
-        let image = view.image();
+    /// The light of a moment, made and its sky written unless they are there. `moment` is all that they depend on: time, haze and moon.
+    pub fn lit(
+        &mut self,
+        queue: &wgpu::Queue,
+        moment: [f32; 3],
+        make: impl FnOnce() -> LitSky,
+    ) -> &LitSky {
+        let last = self.written.take().filter(|(last, _)| *last == moment);
+        let lit = last.map(|(_, lit)| lit).unwrap_or_else(|| {
+            let lit = make();
+            self.write(queue, &lit);
+            lit
+        });
+        &self.written.insert((moment, lit)).1
+    }
+
+    fn write(&self, queue: &wgpu::Queue, lit: &LitSky) {
+        let image = lit.view.image();
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
             bytes_per_row: Some(8 * image.width),
@@ -49,6 +62,5 @@ impl ViewTexture {
             layout,
             self.texture.size(),
         );
-        self.written = Some(view.clone());
     }
 }

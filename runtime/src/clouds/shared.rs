@@ -231,14 +231,7 @@ mod tests {
         let light = Light {
             sun_direction: Vec3::Y,
             sunlight: Vec3::ONE,
-            ground_sunlight: Vec3::ONE,
-            disc: Vec3::ONE,
-            skylight: Vec3::ZERO,
-            sky_on_ground: Vec3::ZERO,
-            night: 0.0,
-            dark: 1.0,
-            unit_cd_m2: 32_000.0,
-            is_moon: false,
+            ..Light::default()
         };
         let sunlight = |cover: f32| {
             let params = SkyParams {

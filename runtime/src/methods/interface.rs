@@ -52,11 +52,6 @@ pub(crate) trait CloudMethod: Sync {
     /// Writes its share of the uniforms. What all clouds share is there already.
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>);
 
-    /// Light of the sun on its clouds.
-    fn sunlight(&self, uniforms: &Uniforms) -> Vec3 {
-        uniforms.clouds.sunlight
-    }
-
     /// How overcast the sky behind is, 0..1.
     fn overcast_weight(&self, params: &SkyParams, _viewer_m: f32, _pack: &PackData) -> f32 {
         shared::overcast_weight(params.cover)

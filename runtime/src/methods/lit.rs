@@ -48,12 +48,13 @@ impl CloudMethod for Lit {
 
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
         let params = frame.params;
-        uniforms.lit = lit::uniforms(params, &frame.view, &frame.light, &uniforms.clouds);
+        uniforms.lit = lit::uniforms(
+            params,
+            &frame.view,
+            frame.light.sun_direction,
+            &uniforms.clouds,
+        );
         uniforms.shadow = shadow::uniforms(params, &frame.view, &uniforms.lit);
-    }
-
-    fn sunlight(&self, uniforms: &Uniforms) -> Vec3 {
-        uniforms.lit.light
     }
 
     fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {

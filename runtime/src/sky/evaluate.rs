@@ -34,8 +34,9 @@ impl PackData {
         seconds: f64,
         step: f32,
     ) -> Uniforms {
-        let clamped = self.exposed(params.clamped(), seconds);
+        let clamped = params.clamped();
         let lit = self.lit_sky(&clamped);
+        let clamped = self.exposed(&lit, clamped, seconds);
         self.uniforms_under(&lit, &clamped, camera, seconds, step)
     }
 
@@ -116,11 +117,10 @@ impl PackData {
         {
             uniforms.perez = perez::uniforms(&params.perez, params.sky, &light);
         }
-        uniforms.sun = sun::uniforms(&light, &rays, self.sun.0, self.sun.1, pixel, params.sun);
-        if step == 0.0 {
-            // A lens's glare is the display's affair.
-            uniforms.sun.glare = Vec3::ZERO;
-        }
+        let (texels, levels) = self.sun;
+        // A lens's glare is the display's affair.
+        let lens = step > 0.0;
+        uniforms.sun = sun::uniforms(&light, &rays, texels, levels, pixel, params.sun, lens);
         uniforms.stars = stars::uniforms(
             self.stars,
             &self.star_units,
@@ -149,9 +149,8 @@ impl PackData {
 #[cfg(feature = "weather")]
 fn write_weather(uniforms: &mut Uniforms, frame: &MethodFrame<'_>, screen: &Rays) -> Vec3 {
     let (params, view, clouds) = (frame.params, &frame.view, &uniforms.clouds);
-    let sunlight = params.method.clouds().sunlight(uniforms);
-    let flash = lightning::uniforms(params, view, clouds, sunlight);
-    uniforms.rain = rain::uniforms(params, view, screen, clouds, sunlight, &flash);
+    let flash = lightning::uniforms(params, view, clouds);
+    uniforms.rain = rain::uniforms(params, view, screen, clouds, &flash);
     uniforms.rays = rays::uniforms(params, &frame.light, clouds, screen, view.pixel_rad);
     uniforms.lightning = flash;
     flash.light

@@ -13,6 +13,7 @@ use glam::{Vec2, Vec3, Vec3Swizzles};
 use welkin_pack::air::AUREOLE_LOBES;
 
 use crate::clear_sky::ground;
+use crate::clear_sky::light::LitSky;
 use crate::clear_sky::table::aureole_lobe;
 use crate::frame::Uniforms;
 use crate::geometry::camera::Camera;
@@ -168,11 +169,11 @@ impl Moments {
 }
 
 impl PackData {
-    /// Parameters with the exposure that they ask for; `clamped` are in range.
-    pub(crate) fn exposed(&self, clamped: SkyParams, seconds: f64) -> SkyParams {
+    /// Parameters with the exposure that they ask for, in the light of their moment; `clamped` are in range.
+    pub(crate) fn exposed(&self, lit: &LitSky, clamped: SkyParams, seconds: f64) -> SkyParams {
         match clamped.auto_exposure {
             true => SkyParams {
-                exposure: self.light(&clamped, seconds).exposure,
+                exposure: self.light_under(lit, &clamped, seconds).exposure,
                 auto_exposure: false,
                 ..clamped
             },
@@ -182,12 +183,16 @@ impl PackData {
 
     /// See [`crate::Sky::light`].
     pub fn light(&self, params: &SkyParams, seconds: f64) -> SkyLight {
-        let params = params.clamped();
-        let lit = self.lit_sky(&params);
+        let clamped = params.clamped();
+        self.light_under(&self.lit_sky(&clamped), &clamped, seconds)
+    }
+
+    /// The same in the light of the moment. `params` are in range.
+    fn light_under(&self, lit: &LitSky, params: &SkyParams, seconds: f64) -> SkyLight {
         let camera = Camera::looking(0.0, 0.0, 1.0, [1, 1]);
-        let uniforms = &self.uniforms_under(&lit, &params, &camera, seconds, 0.0);
+        let uniforms = &self.uniforms_under(lit, params, &camera, seconds, 0.0);
         let (light, sun) = (lit.light, lit.light.sun_direction);
-        let clouds = Clouds::new(self, &params, uniforms);
+        let clouds = Clouds::new(self, params, uniforms);
         let azimuth = uniforms.clouds.sun_azimuth;
         // A direction by its sine of elevation and the cosine of its azimuth from the sun's.
         let towards = |sine: f32, azimuth_cos: f32| {

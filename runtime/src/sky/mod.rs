@@ -237,12 +237,13 @@ impl Sky {
         camera: &Camera,
         seconds: f64,
     ) {
-        let clamped = self.pack_data.exposed(params.clamped(), seconds);
-        let params = clamped.dome();
-        let lit = self.pack_data.lit_sky(&clamped);
-        self.view.write(queue, &lit.view);
+        let clamped = params.clamped();
         let data = &self.pack_data;
-        let uniforms = data.uniforms_under(&lit, &clamped, camera, seconds, self.step);
+        let moment = [clamped.time, clamped.haze, clamped.moon];
+        let lit = self.view.lit(queue, moment, || data.lit_sky(&clamped));
+        let clamped = data.exposed(lit, clamped, seconds);
+        let params = clamped.dome();
+        let uniforms = data.uniforms_under(lit, &clamped, camera, seconds, self.step);
         let seconds = finite(seconds);
         #[cfg(feature = "sprites")]
         let uniforms = self.record_sprites(queue, encoder, &clamped, camera, seconds, uniforms);
@@ -316,7 +317,9 @@ impl Sky {
 
     /// Parameters with the exposure that is drawn with: what [`SkyParams::auto_exposure`] finds, if it is on.
     pub fn exposed(&self, params: &SkyParams, seconds: f64) -> SkyParams {
-        self.pack_data.exposed(params.clamped(), seconds)
+        let clamped = params.clamped();
+        let lit = self.pack_data.lit_sky(&clamped);
+        self.pack_data.exposed(&lit, clamped, seconds)
     }
 
     /// Draws the prepared frame into a pass whose attachments are as the configuration said.

@@ -250,15 +250,8 @@ mod tests {
             let is_moon = sine <= MOON[0];
             let light = Light {
                 sun_direction: if is_moon { -sun } else { sun },
-                sunlight: Vec3::ONE,
-                ground_sunlight: Vec3::ONE,
-                disc: Vec3::ONE,
-                skylight: Vec3::ONE,
-                sky_on_ground: Vec3::ONE,
-                night: 0.0,
-                dark: 1.0,
-                unit_cd_m2: 32_000.0,
                 is_moon,
+                ..Light::default()
             };
             let view = CloudView {
                 texels: 512,

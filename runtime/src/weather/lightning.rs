@@ -112,12 +112,7 @@ fn strokes(start_s: f64) -> Vec<(f64, f64)> {
 }
 
 /// The flash's share of the uniforms, all 0 without one. `params` are in range.
-pub fn uniforms(
-    params: &SkyParams,
-    view: &CloudView,
-    clouds: &CloudUniforms,
-    sunlight: Vec3,
-) -> LightningUniforms {
+pub fn uniforms(params: &SkyParams, view: &CloudView, clouds: &CloudUniforms) -> LightningUniforms {
     let flash = &params.weather.lightning;
     let brightness = brightness(flash, view.seconds);
     if brightness == 0.0 {
@@ -125,7 +120,7 @@ pub fn uniforms(
     }
     let [east, south] = flash.place_m.map(f64::from);
     let (place, nearness) = on_the_plane(DVec2::new(east, south), view);
-    let white = luminance(sunlight + clouds.ambient).max(1e-3);
+    let white = luminance(clouds.sunlight + clouds.ambient).max(1e-3);
     LightningUniforms {
         light: LIGHT * (brightness * nearness as f32),
         per_white: 1.0 / white,

@@ -160,7 +160,6 @@ pub fn uniforms(
     view: &CloudView,
     screen: &Rays,
     clouds: &CloudUniforms,
-    sunlight: Vec3,
     flash: &LightningUniforms,
 ) -> RainUniforms {
     let amount = params.weather.rain;
@@ -175,7 +174,7 @@ pub fn uniforms(
     let [first_column, columns] = columns_in_sight(axes, screen, view.pixel_rad);
     let [right, up, forward] = axes;
     let light = |[sun, sky, lightning]: [f32; 3]| {
-        sky * clouds.ambient + sun * sunlight + lightning * flash.light
+        sky * clouds.ambient + sun * clouds.sunlight + lightning * flash.light
     };
     RainUniforms {
         right,
@@ -273,7 +272,6 @@ mod tests {
             &view,
             &screen,
             &CloudUniforms::default(),
-            Vec3::ZERO,
             &LightningUniforms::default(),
         )
     }

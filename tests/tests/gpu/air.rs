@@ -60,32 +60,8 @@ fn drawn(air: &air::Air, radiance: Vec3, ways: &[[Vec3; 2]]) -> Vec<Vec3> {
         list(1),
         vector(radiance),
     );
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("air"),
-        source: wgpu::ShaderSource::Wgsl(text.into()),
-    });
     let format = wgpu::TextureFormat::Rgba32Float;
-    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("air"),
-        layout: None,
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("vs"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("fs"),
-            compilation_options: Default::default(),
-            targets: &[Some(format.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    });
+    let pipeline = gpu::pipeline(&text, ["vs", "fs"], format);
     let uniform = air.uniform();
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("air"),

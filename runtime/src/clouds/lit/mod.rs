@@ -35,7 +35,6 @@ pub mod shadow;
 use glam::{DMat2, DVec2, Vec2, Vec3, Vec3Swizzles};
 use welkin_pack::LayerKind;
 
-use crate::clear_sky::light::Light;
 use crate::clouds::shared::{
     self, CloudUniforms, CloudView, OPAQUE, inverse_smoothstep, offset, overcast_weight,
 };
@@ -256,15 +255,14 @@ pub fn mesh(flattening: f32, step_deg: f32) -> Mesh {
     })
 }
 
-/// The method's share of the uniforms. `params` are in range.
+/// The method's share of the uniforms. `params` are in range; `sun` is the unit direction towards sun or moon.
 pub fn uniforms(
     params: &SkyParams,
     view: &CloudView,
-    light: &Light,
+    sun: Vec3,
     clouds: &CloudUniforms,
 ) -> LitUniforms {
     let own = &params.lit;
-    let sun = light.sun_direction;
     let f2 = own.flattening * own.flattening;
     let seen = intersect(own.flattening, sun).position;
     let mut layers = [LitLayerUniforms::default(); MAX_LAYERS];

@@ -5,18 +5,7 @@ use glam::DVec3;
 use super::*;
 use crate::params::LitParams;
 
-const LIGHT: Light = Light {
-    sun_direction: Vec3::new(0.6, 0.8, 0.0),
-    sunlight: Vec3::ONE,
-    skylight: Vec3::splat(0.2),
-    night: 0.0,
-    ground_sunlight: Vec3::ONE,
-    disc: Vec3::ONE,
-    sky_on_ground: Vec3::ONE,
-    dark: 1.0,
-    unit_cd_m2: 32_000.0,
-    is_moon: false,
-};
+const SUN: Vec3 = Vec3::new(0.6, 0.8, 0.0);
 
 fn at(params: &SkyParams, seconds: f64, place_m: DVec3) -> LitUniforms {
     let view = CloudView {
@@ -25,7 +14,7 @@ fn at(params: &SkyParams, seconds: f64, place_m: DVec3) -> LitUniforms {
         seconds,
         place_m,
     };
-    uniforms(params, &view, &LIGHT, &CloudUniforms::default())
+    uniforms(params, &view, SUN, &CloudUniforms::default())
 }
 
 #[test]

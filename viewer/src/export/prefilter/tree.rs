@@ -11,6 +11,7 @@
 
 use glam::Vec3;
 use rayon::prelude::*;
+use welkin_runtime::internals::geometry::math::LUMINANCE;
 
 use super::super::cube::{texel_direction, texel_solid_angle};
 use super::super::cubemap::Cubemap;
@@ -23,9 +24,6 @@ const REACH: f32 = 0.15;
 
 /// Texels a side of the coarsest parts: no wider than [`REACH`] where the lobe is widest.
 const COARSEST: u32 = 8;
-
-/// Luminance of linear BT.709 (ITU-R BT.709-6, item 3.2).
-const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 /// A square of texels.
 #[derive(Clone, Copy, Debug, Default)]
