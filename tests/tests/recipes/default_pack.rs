@@ -19,6 +19,9 @@ const MOST_BYTES_MORE: usize = 4 * 256 * 256 * 4 / 2 + 60_000;
 /// of a rank comes equally often and the others are hardly more predictable.
 const MOST_BYTES_LAYERS: usize = 3 * 256 * 256 * 4 * 4 / 3;
 
+/// What the table of the clear sky may take: of its 160 images of 16 x 32 half floats x 4, half. Their values are smooth.
+const MOST_BYTES_SKY: usize = 160 * 16 * 32 * 4 * 2 / 2;
+
 /// What the sheet of sprites may take: half of the bytes of its levels, since most of a cell is transparent.
 const MOST_BYTES_SPRITES: usize = 512 * 512 * 2 * 4 / 3 / 2;
 
@@ -37,6 +40,7 @@ fn it_is_sound_and_small() {
     assert_sound(pack);
     for (role, most) in [
         (Role::Layers, MOST_BYTES_LAYERS),
+        (Role::Sky, MOST_BYTES_SKY),
         (Role::Sprites, MOST_BYTES_SPRITES),
     ] {
         let bytes = pack.manifest().texture(role).unwrap().file_bytes as usize;
@@ -44,7 +48,7 @@ fn it_is_sound_and_small() {
     }
     let more = [Role::Octaves, Role::Fbm, Role::Flares].map(Role::file);
     let files = pack.files().iter();
-    let told = [Role::Layers, Role::Sprites].map(Role::file);
+    let told = [Role::Layers, Role::Sky, Role::Sprites].map(Role::file);
     let files = files.filter(|(name, _)| !told.contains(name));
     let (more, packed): (Vec<_>, Vec<_>) = files.partition(|(n, _)| more.contains(n));
     let bytes = |files: &[&(String, Vec<u8>)]| files.iter().map(|(_, b)| b.len()).sum::<usize>();
