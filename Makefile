@@ -95,7 +95,7 @@ DAY := dawn:0.262:92 noon:0.48:120 dusk:0.735:262 night:0.03:200
 # A flight straight through a cloud, by metres to the north.
 FLIGHT := 1000 1250 1500 1650 1750 1850 2000 2250
 
-gallery: sky ## Draw the pictures of docs/lit.md and docs/sprites.md into out/lit/ and out/sprites/
+gallery: sky ## Draw the pictures of docs/lit.md and docs/sprites.md into out/lit/ and out/sprites/, and a page of every method into out/look/
 	mkdir -p out/lit
 	for oktas in 0 2 4 6 8; do \
 	  for layers in "one --layers stratocumulus" "three"; do \
@@ -133,6 +133,8 @@ gallery: sky ## Draw the pictures of docs/lit.md and docs/sprites.md into out/li
 	  $(VIEW) render $(PACK) -o out/sprites/flight-$$north.png $(SPRITES) --cover 0.3 --time 0.4 --azimuth 0 --elevation 2 --up 1300 --north $$north; \
 	done
 	$(VIEW) render $(PACK) -o out/sprites/far.png $(SPRITES) --cover 0.6 --time 0.45 --azimuth 100 --elevation -14 --up 9000 --sight 60000
+	@# Numbers beyond the bounds are told; the page is there all the same.
+	-$(VIEW) look $(PACK) -o out/look
 
 web: web-tools ## Build the page with the sky in WebAssembly into out/web/, for any web server
 	$(CARGO) build --release --locked -p welkin-baker

@@ -85,13 +85,13 @@ impl Recipe {
         let noise = FractalNoise {
             cells: 4,
             octaves: 5,
-            gain: 0.5,
-            mean: 0.26,
+            gain: 0.45,
+            mean: 0.22,
         };
         let detail = FractalNoise {
-            cells: 16,
-            octaves: 3,
-            gain: 0.5,
+            cells: 8,
+            octaves: 6,
+            gain: 0.65,
             mean: 0.5,
         };
         let settings = CloudSettings {
@@ -100,7 +100,7 @@ impl Recipe {
             photo: PhotoSettings {
                 file: self.text_of("clouds.photo.file", &c.photo.file)?,
                 size,
-                mean: self.mean("clouds.photo.mean", &c.photo.mean, 0.16, SHAPE_MEANS)?,
+                mean: self.mean("clouds.photo.mean", &c.photo.mean, 0.37, SHAPE_MEANS)?,
             },
             noise: FractalNoise {
                 mean: self.mean("clouds.noise.mean", &c.noise.mean, noise.mean, SHAPE_MEANS)?,

@@ -10,7 +10,7 @@ use crate::device::shader::{Build, compose};
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::Struct;
 use crate::geometry::{camera, dome};
-use crate::params::{Method, SkyModel};
+use crate::params::{Method, Shading, SkyModel};
 #[cfg(feature = "weather")]
 use crate::weather::{self, lightning, rain, rays};
 use crate::{frame, tonemap};
@@ -95,7 +95,10 @@ pub fn text(build: Build, dome: Dome) -> String {
             weather.to_string(),
         ),
     ];
-    let own = [("ASK_OPAQUE", Value::Bool(clouds.is_often_opaque()))];
+    let own = [
+        ("ASK_OPAQUE", Value::Bool(clouds.is_often_opaque())),
+        ("SCATTERED", Value::Bool(dome.shading == Shading::Scattered)),
+    ];
     compose(build, &own, structs(), parts, &calls)
 }
 
@@ -134,12 +137,15 @@ mod tests {
                             reversed_depth,
                             skybox,
                         };
-                        let dome = Dome {
-                            method,
-                            sky,
-                            weather,
-                        };
-                        builds.push((build, dome));
+                        for shading in Shading::ALL {
+                            let dome = Dome {
+                                method,
+                                shading,
+                                sky,
+                                weather,
+                            };
+                            builds.push((build, dome));
+                        }
                     }
                 }
             }
@@ -150,6 +156,7 @@ mod tests {
     /// The entry points that only a method has.
     fn own_entries(method: Method) -> &'static [&'static str] {
         match method.name() {
+            "packed" => &["fs_packed_map"],
             "octaves" => &["fs_octaves_map"],
             "fbm" => &["fs_fbm_map", "fs_fbm_pack"],
             "lit" => &["fs_lit_map", "fs_lit_level", "fs_shadow"],

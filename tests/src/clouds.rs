@@ -3,8 +3,11 @@
 use glam::Vec3;
 use welkin_pack::mapping;
 use welkin_runtime::internals::clouds::shared::CloudUniforms;
-use welkin_runtime::internals::clouds::shared::{ABEAM, CORE, RIM, SIDED};
+use welkin_runtime::internals::clouds::shared::{
+    ABEAM, BACKWARD, BRIGHTEST, CORE, FORWARD, HIDDEN, MULTIPLE, POWDER, RIM, SIDED, SINGLE, THIN,
+};
 use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::params::Shading;
 
 use crate::dome::DomeHit;
 use crate::texture::{Texture, smoothstep};
@@ -12,6 +15,8 @@ use crate::texture::{Texture, smoothstep};
 /// What a layer of clouds is computed from.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs<'a> {
+    /// How clouds are shaded.
+    pub shading: Shading,
     /// The frame's constants.
     pub uniforms: &'a Uniforms,
     /// The pack's clouds.
@@ -39,9 +44,36 @@ impl Inputs<'_> {
 pub fn facing(uniforms: &Uniforms, direction: Vec3, opacity: f32) -> f32 {
     let cosine = direction.dot(uniforms.sky.sun_direction);
     let thin = 1.0 - opacity;
-    let rim = RIM * thin * thin * cosine.max(0.0).powi(4);
+    let rim = RIM * thin * thin * cosine.max(0.0).powi(8);
     let sided = ABEAM - SIDED * cosine + rim;
     1.0 + (sided - 1.0) * uniforms.clouds.low_sun
+}
+
+/// Shares of sunlight and of skylight that a cloud of this height sends along a direction, where sunlight was halved `depth` times.
+pub fn scattered(uniforms: &Uniforms, direction: Vec3, depth: f32, height: f32) -> [f32; 2] {
+    let cosine = direction.dot(uniforms.sky.sun_direction);
+    // Henyey and Greenstein, in 64 bits, against all sides alike.
+    let lobe = |weight: f32, g: f32| {
+        let (weight, g, cosine) = (f64::from(weight), f64::from(g), f64::from(cosine));
+        let base = 1.0 + g * g - 2.0 * g * cosine;
+        weight * (1.0 - g * g) / (base * libm::sqrt(base))
+    };
+    let forward = lobe(FORWARD[0], FORWARD[1]) as f32;
+    let phase = forward + BACKWARD[0] - BACKWARD[1] * cosine;
+    let halved = |times: f32| libm::exp2f(-times);
+    let sided = 1.0 + (ABEAM - SIDED * cosine - 1.0) * uniforms.clouds.low_sun;
+    let rim = SINGLE[1] * phase.min(BRIGHTEST) * halved(THIN * height + depth);
+    let body = SINGLE[0] * halved(depth) + MULTIPLE[0] * halved(MULTIPLE[1] * depth);
+    let powder = 1.0 - POWDER[0] * (0.5 - 0.5 * cosine) * (1.0 - POWDER[1] * height).max(0.0);
+    [
+        (body * sided + rim) * powder,
+        1.0 - HIDDEN * height.min(1.0),
+    ]
+}
+
+/// Radiance of what these shares are of, under the sunset tint.
+pub fn lit(clouds: &CloudUniforms, [sunlit, skylit]: [f32; 2], tint: f32) -> Vec3 {
+    (sunlit * clouds.sunlight + skylit * clouds.ambient) * Vec3::ONE.lerp(clouds.tint, tint)
 }
 
 /// Radiance of display-referred grey.

@@ -1,7 +1,8 @@
 //! Twin of fbm.wgsl.
 
 use glam::{Vec2, Vec3};
-use welkin_runtime::internals::clouds::fbm::{FINER, FINER_START, FULL, ROUGH_SHADE};
+use welkin_runtime::internals::clouds::fbm::{DEPTH, FINER, FINER_START, FULL, ROUGH_SHADE, THICK};
+use welkin_runtime::params::Shading;
 
 use crate::clouds::{self, Inputs};
 use crate::dome;
@@ -24,11 +25,15 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
         uniforms.tint,
         clouds::tint(uniforms, inputs.clouds, direction),
     );
-    let colour = fbm.lit.lerp(fbm.shaded, shade) * tint;
+    let colour = fbm.lit.lerp(fbm.shaded, shade);
     let alpha = smoothstep(0.0, FULL, cover + rough);
-    let facing = clouds::facing(inputs.uniforms, direction, alpha);
-    (
-        colour * (facing * uniforms.sunlight + uniforms.ambient),
-        alpha * clouds::clearness(uniforms, direction),
-    )
+    let light = match inputs.shading {
+        Shading::Scattered => {
+            let [sunlit, skylit] =
+                clouds::scattered(inputs.uniforms, direction, DEPTH * shade, THICK * cover);
+            fbm.lit * sunlit * uniforms.sunlight + colour * skylit * uniforms.ambient
+        }
+        Shading::Paper => colour * (uniforms.sunlight + uniforms.ambient),
+    };
+    (light * tint, alpha * clouds::clearness(uniforms, direction))
 }

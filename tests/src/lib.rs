@@ -26,6 +26,8 @@ pub mod octaves;
 pub mod octaves_map;
 pub mod pack;
 pub mod packed;
+pub mod packed_map;
+pub mod packed_paper;
 pub mod perez;
 pub mod rain;
 pub mod rays;

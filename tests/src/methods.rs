@@ -3,14 +3,19 @@
 use glam::Vec3;
 use welkin_runtime::Method;
 use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::params::Shading;
 
 use crate::clouds::Inputs;
-use crate::{fbm, lit, octaves, packed};
+use crate::{fbm, lit, octaves, packed, packed_paper};
 
 /// How many channels of clouds or of a map a method reads in a place.
-pub fn reads(method: Method, uniforms: &Uniforms) -> usize {
+pub fn reads(method: Method, shading: Shading, uniforms: &Uniforms) -> usize {
     match method {
-        Method::Packed | Method::Sprites => 4,
+        Method::Packed => match shading {
+            Shading::Scattered => 8,
+            Shading::Paper => 4,
+        },
+        Method::Sprites => 1,
         Method::Octaves => 5,
         Method::Fbm => 3,
         Method::Lit => lit::reads(&uniforms.lit),
@@ -21,7 +26,10 @@ pub fn reads(method: Method, uniforms: &Uniforms) -> usize {
 /// of its angle to the axis of the lens.
 pub fn layer(method: Method, inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
     match method {
-        Method::Packed => packed::layer(inputs, direction, narrowing),
+        Method::Packed => match inputs.shading {
+            Shading::Scattered => packed::layer(inputs, direction, narrowing),
+            Shading::Paper => packed_paper::layer(inputs, direction, narrowing),
+        },
         Method::Sprites => packed::upper_layer(inputs, direction, narrowing),
         Method::Octaves => octaves::layer(inputs, direction, narrowing),
         Method::Fbm => fbm::layer(inputs, direction, narrowing),

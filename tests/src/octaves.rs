@@ -3,8 +3,10 @@
 use glam::{Vec2, Vec3};
 use welkin_runtime::internals::clouds::octaves::OctaveDome;
 use welkin_runtime::internals::clouds::octaves::{
-    EDGE, FINER, FINER_START, HIGH_OPACITY, MIDDLE_OPACITY, ROUGH_GREY,
+    BODY_HEIGHTS, EDGE, FINER, FINER_START, HIGH_OPACITY, LEAST_LIGHT, MIDDLE_OPACITY, ROUGH_DEPTH,
+    ROUGH_GREY, THIN_DEPTH,
 };
+use welkin_runtime::params::Shading;
 
 use crate::clouds::{self, Inputs, light, soften, tinted};
 use crate::dome;
@@ -31,6 +33,7 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
         |dome: &OctaveDome| inputs.map_at(uv(dome, hit.plane).to_array(), level + dome.lod_bias);
     // One grey for all domes: that of thin clouds, and where the low dome is opaque, its own.
     let (mut grey, mut clear) = (thin_grey, 1.0);
+    let (mut depth, mut body) = (THIN_DEPTH, 0.0);
     if octaves.low.threshold < 1.0 {
         let [_, alpha, _, own] = map(&octaves.low);
         let (alpha, own) = (alpha + inputs.nudges[0], own + inputs.nudges[1]);
@@ -42,6 +45,9 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
         let alpha = (alpha + rough).clamp(0.0, 1.0);
         grey += (own + ROUGH_GREY * finer - grey) * alpha;
         clear *= 1.0 - alpha;
+        let passed = ROUGH_DEPTH * finer - libm::log2f(own.max(LEAST_LIGHT));
+        depth += (passed.max(0.0) - depth) * alpha;
+        body = alpha;
     }
     if octaves.middle.threshold < 1.0 {
         let [_, _, alpha, _] = map(&octaves.middle);
@@ -53,12 +59,20 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
         clear *= 1.0 - HIGH_OPACITY * smoothstep(0.0, 1.0, thickness * octaves.high_contrast);
     }
     let tint = clouds::tint(uniforms, inputs.clouds, direction);
-    (
-        light(
+    let radiance = match inputs.shading {
+        Shading::Scattered => {
+            let height = BODY_HEIGHTS[0] + (BODY_HEIGHTS[1] - BODY_HEIGHTS[0]) * body;
+            let shares = clouds::scattered(inputs.uniforms, direction, depth, height);
+            clouds::lit(uniforms, shares, tint)
+        }
+        Shading::Paper => light(
             uniforms,
             tinted(uniforms, grey.clamp(0.0, 1.0), tint),
             clouds::facing(inputs.uniforms, direction, 1.0 - clear),
         ),
+    };
+    (
+        radiance,
         (1.0 - clear) * clouds::clearness(uniforms, direction),
     )
 }

@@ -8,6 +8,7 @@ use welkin_runtime::internals::clouds::octaves::OctaveUniforms;
 use welkin_runtime::internals::clouds::octaves::map::{NOISE_SIDE, RELIEF_COUNT};
 use welkin_runtime::internals::clouds::octaves::{EDGE, THIN};
 use welkin_runtime::internals::geometry::math::{NORMAL_BEND, NORMAL_SLOPE};
+use welkin_runtime::params::Shading;
 
 use crate::gpu;
 use crate::octaves::alpha;
@@ -25,9 +26,10 @@ pub fn normal_share(z: f32) -> f32 {
     0.5 + 0.5 * libm::tanhf(NORMAL_SLOPE * z * (1.0 + NORMAL_BEND * z * z))
 }
 
-/// Level 0 of the map, not rounded: amount, opacity of the low and of the middle dome, grey of the low dome.
+/// Level 0 of the map, not rounded: amount, opacity of the low and of the middle dome, sunlight that the low dome leaves or its
+/// grey.
 /// `states` are those of [`welkin_runtime::internals::clouds::octaves::map::states`].
-pub fn render(octaves: &OctaveUniforms, states: &[f32]) -> Image {
+pub fn render(octaves: &OctaveUniforms, shading: Shading, states: &[f32]) -> Image {
     let OctaveUniforms {
         count,
         exponent,
@@ -47,13 +49,17 @@ pub fn render(octaves: &OctaveUniforms, states: &[f32]) -> Image {
         let amount = normal_share(here[index]);
         let towards_sun = normal_share(here[index] + large_away[index] - large_here[index]);
         let thickness = amount - octaves.low.threshold;
-        let grey = edge_grey + relief * (amount - towards_sun)
-            - darkening * (amount - octaves.low.threshold.max(0.0)).max(0.0);
+        let above = (amount - octaves.low.threshold.max(0.0)).max(0.0);
+        let relief = relief * (amount - towards_sun);
+        let light = match shading {
+            Shading::Scattered => libm::exp2f(-(octaves.extinction * (above - relief)).max(0.0)),
+            Shading::Paper => edge_grey + relief - darkening * above,
+        };
         texel.copy_from_slice(&[
             amount,
             alpha(thickness, exponent),
             alpha(amount - octaves.middle.threshold, THIN * exponent),
-            grey,
+            light,
         ]);
     }
     map
@@ -84,7 +90,11 @@ fn sums(octaves: &OctaveUniforms, states: &[f32], which: Range<usize>, away: Vec
 /// difference of two texels along each axis. On average, over octaves and axes, independent errors add as their squares
 /// do, and evenly distributed ones have the deviation of their largest over sqrt 3. The normal distribution's
 /// density, at most 0.4, turns all that into an amount; [`slopes`] turn that into the other channels.
-pub fn allowance(octaves: &OctaveUniforms, states: &[f32]) -> ([f32; 4], [f32; 4]) {
+pub fn allowance(
+    octaves: &OctaveUniforms,
+    shading: Shading,
+    states: &[f32],
+) -> ([f32; 4], [f32; 4]) {
     let half = libm::exp2f(-11.0);
     let fraction = if gpu::gpu().is_llvmpipe {
         0.0
@@ -100,7 +110,7 @@ pub fn allowance(octaves: &OctaveUniforms, states: &[f32]) -> ([f32; 4], [f32; 4
         // The difference of two texels has twice the variance, on two axes.
         square += variance * (half * half + 4.0 * fraction * fraction) / 3.0;
     }
-    let slopes = slopes(octaves);
+    let slopes = slopes(octaves, shading);
     let bytes = NORMAL_SLOPE / 2.0 * 255.0;
     (
         slopes.map(|slope| 0.5 + slope * most * bytes),
@@ -111,15 +121,21 @@ pub fn allowance(octaves: &OctaveUniforms, states: &[f32]) -> ([f32; 4], [f32; 4
 /// By how much each channel changes at most where the amount changes by one.
 ///
 /// The paper's exponential is steepest at its foot; its softening `a^2 (1 + e) / (a + e)` at 1, with (1 + 2 e) / (1 + e).
-/// The grey has the amount here, the amount towards the sun, and the thickness.
-pub fn slopes(octaves: &OctaveUniforms) -> [f32; 4] {
+/// The light has the amount here, the amount towards the sun, and the thickness.
+pub fn slopes(octaves: &OctaveUniforms, shading: Shading) -> [f32; 4] {
     let opacity =
         octaves.exponent.abs() * std::f32::consts::LN_2 * (1.0 + 2.0 * EDGE) / (1.0 + EDGE);
     [
         1.0,
         opacity,
         THIN * opacity,
-        2.0 * octaves.relief.abs() + octaves.darkening.abs(),
+        match shading {
+            // An exponential is steepest where nothing is halved yet.
+            Shading::Scattered => {
+                octaves.extinction * std::f32::consts::LN_2 * (1.0 + 2.0 * octaves.relief.abs())
+            }
+            Shading::Paper => 2.0 * octaves.relief.abs() + octaves.darkening.abs(),
+        },
     ]
 }
 
@@ -227,17 +243,25 @@ mod tests {
             darkening: 0.5,
             relief: 1.0,
             sun_step: Vec2::new(0.1, 0.2),
+            extinction: 3.0,
             ..Default::default()
         };
         let amount = normal_share(0.5);
-        let expected = [
-            amount,
-            alpha(amount, -2.0),
-            alpha(amount, -2.0 * THIN),
-            0.75 - 0.5 * amount,
+        let lights = [
+            (Shading::Scattered, libm::exp2f(-3.0 * amount)),
+            (Shading::Paper, 0.75 - 0.5 * amount),
         ];
-        for texel in render(&octaves, &[0.25; 2048]).texels.chunks_exact(4) {
-            assert!((0..4).all(|c| (texel[c] - expected[c]).abs() < 1e-5));
+        for (shading, light) in lights {
+            let expected = [
+                amount,
+                alpha(amount, -2.0),
+                alpha(amount, -2.0 * THIN),
+                light,
+            ];
+            let map = render(&octaves, shading, &[0.25; 2048]);
+            for texel in map.texels.chunks_exact(4) {
+                assert!((0..4).all(|c| (texel[c] - expected[c]).abs() < 1e-5));
+            }
         }
     }
 }

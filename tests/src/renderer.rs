@@ -5,14 +5,15 @@ use welkin_pack::{Image, Pack, Role};
 use welkin_runtime::internals::clear_sky::galaxy::EXTINCTION;
 use welkin_runtime::internals::frame::Uniforms;
 use welkin_runtime::internals::pack_data::PackData;
+use welkin_runtime::params::Shading;
 use welkin_runtime::{Camera, Method, SkyParams};
 
 use crate::clouds::Inputs;
 use crate::skybox::{self, Skybox};
 use crate::texture::{Texture, smoothstep};
 use crate::{
-    camera, fbm_map, fbm_pack, flares, galaxy, lightning, lit_map, map, methods, octaves_map, rain,
-    sky, stars, sun,
+    camera, fbm_map, fbm_pack, flares, galaxy, lightning, lit_map, map, methods, octaves_map,
+    packed_map, rain, sky, stars, sun,
 };
 
 /// A texture unit may filter 8-bit texels in 8 bits (Mesa's software does; Vulkan asks for no more), which makes a
@@ -38,6 +39,8 @@ pub struct Frame<'a> {
     twin: &'a Twin<'a>,
     /// Whose clouds it has.
     pub method: Method,
+    /// How they are shaded.
+    pub shading: Shading,
     /// The frame's constants.
     pub uniforms: Uniforms,
     /// The clear sky of its moment.
@@ -88,10 +91,11 @@ impl<'a> Twin<'a> {
         Frame {
             twin: self,
             method: params.method,
+            shading: params.shading,
             uniforms,
             sky: sky::texture(&self.facts, params),
             map: Vec::new(),
-            nudges: vec![0.0; methods::reads(params.method, &uniforms)],
+            nudges: vec![0.0; methods::reads(params.method, params.shading, &uniforms)],
             states: match params.method {
                 Method::Octaves => self.facts.octave_states(params, seconds),
                 Method::Packed | Method::Fbm | Method::Lit | Method::Sprites => Vec::new(),
@@ -119,8 +123,14 @@ impl Frame<'_> {
     pub fn top_of_map(&self) -> Vec<Image> {
         let (octaves, fbm) = (&self.uniforms.octaves, &self.uniforms.fbm);
         match self.method {
-            Method::Packed | Method::Sprites => Vec::new(),
-            Method::Octaves => vec![octaves_map::render(octaves, &self.states)],
+            Method::Packed => match self.shading {
+                Shading::Scattered => {
+                    vec![packed_map::render(&self.uniforms.packed, &self.twin.clouds)]
+                }
+                Shading::Paper => Vec::new(),
+            },
+            Method::Sprites => Vec::new(),
+            Method::Octaves => vec![octaves_map::render(octaves, self.shading, &self.states)],
             Method::Fbm => vec![fbm_map::render(fbm, &self.packed_octaves())],
             Method::Lit => lit_map::render(&self.uniforms.lit, &self.twin.layers),
         }
@@ -133,8 +143,16 @@ impl Frame<'_> {
     /// What a texel of level 0 of each layer of the map may be off by in each channel: at most, and on average, in bytes.
     pub fn map_allowance(&self) -> Vec<([f32; 4], [f32; 4])> {
         match self.method {
-            Method::Packed | Method::Sprites => Vec::new(),
-            Method::Octaves => vec![octaves_map::allowance(&self.uniforms.octaves, &self.states)],
+            Method::Packed => match self.shading {
+                Shading::Scattered => vec![packed_map::ALLOWANCE],
+                Shading::Paper => Vec::new(),
+            },
+            Method::Sprites => Vec::new(),
+            Method::Octaves => vec![octaves_map::allowance(
+                &self.uniforms.octaves,
+                self.shading,
+                &self.states,
+            )],
             Method::Fbm => vec![fbm_map::allowance(
                 &self.uniforms.fbm,
                 &self.packed_octaves(),
@@ -146,7 +164,8 @@ impl Frame<'_> {
     /// Numbers about the channels of the map's layers, put into the order of the reads; 0 for what is not read of a map.
     pub fn in_order_of_reads(&self, layers: &[[f32; 4]]) -> Vec<f32> {
         let ordered = |[r, g, b, a]: [f32; 4]| match self.method {
-            Method::Packed | Method::Sprites => Vec::new(),
+            Method::Packed => vec![r, g, b, a],
+            Method::Sprites => Vec::new(),
             Method::Octaves => vec![g, a, r, b, r],
             Method::Fbm => vec![r, a, g],
             Method::Lit => vec![r, b, a],
@@ -166,7 +185,7 @@ impl Frame<'_> {
         self.pixels(|pixel| self.pixel(pixel))
     }
 
-    /// The same without clouds.
+    /// The same without clouds and sun.
     pub fn behind(&self) -> Vec<Vec3> {
         self.pixels(|pixel| self.pixel_behind(pixel))
     }
@@ -174,7 +193,10 @@ impl Frame<'_> {
     /// The clouds of a frame over what is [`Frame::behind`] them.
     pub fn clouds_over(&self, behind: &[Vec3]) -> Vec<Vec3> {
         let mut behind = behind.iter();
-        self.pixels(|pixel| self.over(*behind.next().expect("every pixel is there"), pixel))
+        self.pixels(|pixel| {
+            let behind = behind.next().expect("every pixel is there");
+            self.over(*behind, self.sun(pixel), pixel)
+        })
     }
 
     /// Opacity of the clouds at every pixel, three times.
@@ -286,6 +308,7 @@ impl Frame<'_> {
     /// What its clouds are computed from.
     pub fn inputs(&self) -> Inputs<'_> {
         Inputs {
+            shading: self.shading,
             uniforms: &self.uniforms,
             clouds: &self.twin.clouds,
             map: &self.map,
@@ -296,13 +319,13 @@ impl Frame<'_> {
 
     /// Radiance of one pixel, behind the haze of rain if there is any.
     pub fn pixel(&self, pixel: Vec2) -> Vec3 {
-        let sky = self.over(self.pixel_behind(pixel), pixel);
+        let sky = self.over(self.pixel_behind(pixel), self.sun(pixel), pixel);
         let ray = camera::ray_of(&self.uniforms.camera, pixel);
         let (colour, opacity) = rain::haze(&self.uniforms.rain, ray);
         sky.lerp(colour, opacity)
     }
 
-    /// Radiance of one pixel behind the clouds.
+    /// Radiance of one pixel behind the clouds, without the sun.
     fn pixel_behind(&self, pixel: Vec2) -> Vec3 {
         let (twin, uniforms) = (self.twin, &self.uniforms);
         let direction = camera::ray_of(&uniforms.camera, pixel).normalize();
@@ -315,21 +338,34 @@ impl Frame<'_> {
             radiance += (uniforms.galaxy.radiance * galaxy + stars)
                 * smoothstep(0.0, EXTINCTION, direction.y);
         }
-        radiance += sun::radiance(uniforms, &twin.sun, direction);
         if let Some(skybox) = &twin.skybox {
             radiance = skybox::mix(&uniforms.skybox, skybox, radiance, direction);
         }
         radiance
     }
 
+    /// Radiance of the sun, as far as no skybox takes its place.
+    fn sun(&self, pixel: Vec2) -> Vec3 {
+        let (twin, uniforms) = (self.twin, &self.uniforms);
+        let direction = camera::ray_of(&uniforms.camera, pixel).normalize();
+        let sun = sun::radiance(uniforms, &twin.sun, direction);
+        let Some(skybox) = &twin.skybox else {
+            return sun;
+        };
+        let of = |light| skybox::mix(&uniforms.skybox, skybox, light, direction);
+        of(sun) - of(Vec3::ZERO)
+    }
+
     /// The clouds of one pixel over what is behind them.
-    fn over(&self, behind: Vec3, pixel: Vec2) -> Vec3 {
+    fn over(&self, behind: Vec3, sun: Vec3, pixel: Vec2) -> Vec3 {
         let ray = camera::ray_of(&self.uniforms.camera, pixel);
         let direction = ray / ray.length();
         if direction.y <= 0.0 {
-            return behind;
+            return behind + sun;
         }
         let (cloud, alpha) = self.clouds(direction, ray.length());
+        // Of the sun's own light clouds leave the cube of what they leave of the rest.
+        let behind = behind + sun * (1.0 - alpha).powi(2);
         behind.lerp(cloud, alpha) + lightning::light(&self.uniforms, direction, cloud, alpha)
     }
 }

@@ -4,6 +4,7 @@ mod bench;
 mod cube;
 mod export;
 mod given;
+mod look;
 mod render;
 mod settings;
 mod values;
@@ -17,6 +18,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 pub use bench::{BenchArgs, Protocol};
 pub use cube::CubeArgs;
 pub use export::Shot;
+pub use look::LookArgs;
 pub use render::RenderArgs;
 pub use window::WindowArgs;
 
@@ -40,6 +42,8 @@ pub enum Command {
     Cube(CubeArgs),
     /// Time each method's sky and two reference passes on the GPU
     Bench(BenchArgs),
+    /// Measure the structure of each method's clouds against photographs', and draw a page of its skies
+    Look(LookArgs),
 }
 
 impl Cli {
@@ -59,7 +63,7 @@ impl Cli {
         let agreed = match &cli.command {
             Some(Command::Render(args)) => args.refuse_others(given),
             Some(Command::Bench(args)) => args.refuse_others(),
-            Some(Command::Cube(_)) | None => Ok(()),
+            Some(Command::Cube(_) | Command::Look(_)) | None => Ok(()),
         };
         agreed.map_err(|message| {
             let subcommand = command.find_subcommand_mut(name);

@@ -9,5 +9,6 @@ pub mod pass_times;
 pub mod reference;
 pub mod save;
 pub mod spread;
+pub mod structure;
 mod timestamps;
 pub mod timing;

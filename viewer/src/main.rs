@@ -6,6 +6,7 @@
 mod bench;
 mod cli;
 mod cube;
+mod look;
 mod render;
 mod save_light;
 mod told;
@@ -26,11 +27,12 @@ fn main() -> ExitCode {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Cube(args)) => cube::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
+        Some(Command::Look(args)) => look::run(&args),
         #[cfg(feature = "window")]
         None => window::run(&cli.window),
         #[cfg(not(feature = "window"))]
         None => Err(anyhow::anyhow!(
-            "this welkin-view was built without its window; use `render`, `cube` or `bench`, or build it with `--features window`"
+            "this welkin-view was built without its window; use `render`, `cube`, `bench` or `look`, or build it with `--features window`"
         )),
     };
     match done {

@@ -25,6 +25,7 @@ export type SettingName =
   | 'speed'
   | 'time'
   | 'method'
+  | 'shading'
   | 'upper'
   | 'octaves'
   | 'octaves-sharpness'
@@ -93,6 +94,8 @@ export interface Settings {
   time?: number | string;
   /** How the clouds are made. */
   method?: 'packed' | 'octaves' | 'fbm' | 'lit' | 'sprites';
+  /** How clouds are shaded. */
+  shading?: 'scattered' | 'paper';
   /** Amount of a thin upper layer, 0 (none) to 1. */
   upper?: number | string;
   /** How many octaves are summed. */

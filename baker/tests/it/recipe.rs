@@ -264,10 +264,10 @@ fn values_of_the_wrong_type_or_out_of_range_are_told_with_key_and_place() {
             "0.05 to 0.68",
         ),
         (
-            "clouds.photo.mean = 0.6",
+            "clouds.photo.mean = 0.67",
             "clouds.photo.mean",
-            "0.6",
-            "0.05 to 0.59 with clouds.noise.mean = 0.26",
+            "0.67",
+            "with clouds.noise.mean = 0.22",
         ),
         (
             "clouds.noise.cells = 65",

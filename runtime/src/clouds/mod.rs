@@ -6,6 +6,7 @@ pub mod fbm;
 mod histogram;
 #[cfg(feature = "lit")]
 pub mod lit;
+pub mod march;
 #[cfg(feature = "octaves")]
 pub mod octaves;
 pub mod packed;

@@ -4,6 +4,9 @@
 //! Roden and Parberry (ACE 2005, section 3.1): the gradient tints the sun's side (lines 26-27), sunlight
 //! lights it all (28). Clouds fade towards the horizon, as haze takes them.
 //!
+//! By default clouds of three methods scatter what comes through them: light once scattered by a phase function, and, less weakened, light that was
+//! scattered many times. docs/clouds.md has the numbers.
+//!
 //! # Changes versus the paper
 //! - The paper's grey is display-referred; its square is taken as reflected sunlight, itself as skylight.
 //! - Cores are never black: [`CORE`] is what the paper's black becomes.
@@ -19,7 +22,7 @@ use crate::clear_sky::light::Light;
 use crate::geometry::math::{luminance, smoothstep};
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
-use crate::params::SkyParams;
+use crate::params::{Shading, SkyParams};
 
 /// Its part of the shader.
 pub const PART: Part = Part {
@@ -28,6 +31,14 @@ pub const PART: Part = Part {
         ("CLOUD_ABEAM", Value::F32(ABEAM)),
         ("CLOUD_SIDED", Value::F32(SIDED)),
         ("CLOUD_RIM", Value::F32(RIM)),
+        ("CLOUD_MULTIPLE", Value::Vec2(MULTIPLE)),
+        ("CLOUD_SINGLE", Value::Vec2(SINGLE)),
+        ("CLOUD_FORWARD", Value::Vec3(forward())),
+        ("CLOUD_BACKWARD", Value::Vec2(BACKWARD)),
+        ("CLOUD_BRIGHTEST", Value::F32(BRIGHTEST)),
+        ("CLOUD_THIN", Value::F32(THIN)),
+        ("CLOUD_POWDER", Value::Vec2(POWDER)),
+        ("CLOUD_HIDDEN", Value::F32(HIDDEN)),
     ],
     structs: &[CloudUniforms::WGSL],
     wgsl: include_str!("shared.wgsl"),
@@ -67,6 +78,28 @@ const HAZE: [f32; 2] = [0.20, 0.08];
 pub const ABEAM: f32 = 0.55;
 pub const SIDED: f32 = 0.55;
 pub const RIM: f32 = 2.5;
+/// Light that is scattered many times: its share, and the share of the extinction that it feels. M. Wrenninge, C. Kulla, V. Lundqvist, "Oz:
+/// The Great and Volumetric", SIGGRAPH 2013 Talks, have a sum of such terms; here it is one. Numbers here and below are chosen by eye.
+pub const MULTIPLE: [f32; 2] = [0.5, 0.3];
+/// Light that is scattered once: its share to all sides, and by the phase function.
+pub const SINGLE: [f32; 2] = [0.28, 0.32];
+/// The phase function: weight and asymmetry of a lobe of Henyey and Greenstein forwards.
+pub const FORWARD: [f32; 2] = [0.5, 0.8];
+/// Its other half, which goes backwards a little more: `a - b cos`.
+pub const BACKWARD: [f32; 2] = [0.5, 0.22];
+/// The most that it counts against all sides alike, about the sun.
+pub const BRIGHTEST: f32 = 10.0;
+/// Halvings of it by a height of 1: what is thick shows no light that was scattered once.
+pub const THIN: f32 = 2.9;
+/// "Beer-Powder": what edges that are seen away from the sun lack of the light, and 1 over the height at which nothing lacks. A. Schneider, N. Vos,
+/// "The Real-time Volumetric Cloudscapes of Horizon: Zero Dawn", SIGGRAPH 2015.
+pub const POWDER: [f32; 2] = [0.4, 5.0];
+/// The least sine of the sun's elevation that counts: a lower sun comes in from the side.
+const LEAST_SINE: f32 = 0.4;
+/// Halvings of sunlight on its way to a middling cloud, and its height.
+const MIDDLING: [f32; 2] = [1.2, 0.3];
+/// Share of skylight that a cloud of height 1 keeps from its own underside.
+pub const HIDDEN: f32 = 0.45;
 /// Sines of the sun's elevation from which clouds are lit from above, and below which from the side.
 const LOW_SUN: [f32; 2] = [0.5, 0.1];
 
@@ -139,8 +172,12 @@ pub fn uniforms(params: &SkyParams, light: &Light, texels: u32) -> CloudUniforms
         // The gradient is about the sun.
         sunset: if light.is_moon { 0.0 } else { params.sunset },
         tint: SUNSET_TINT,
-        low_sun: smoothstep(LOW_SUN[0], LOW_SUN[1], light.sun_direction.y)
-            * (1.0 - overcast_weight),
+        low_sun: match params.shading {
+            Shading::Scattered => {
+                smoothstep(LOW_SUN[0], LOW_SUN[1], light.sun_direction.y) * (1.0 - overcast_weight)
+            }
+            Shading::Paper => 0.0,
+        },
     }
 }
 
@@ -150,10 +187,57 @@ pub(crate) fn radiance(clouds: &CloudUniforms, grey: f32) -> Vec3 {
     bright * (bright * clouds.sunlight + clouds.ambient)
 }
 
+/// The way of light through a layer, against its thickness, by the sine of the sun's elevation: the lower the sun, the longer.
+pub(crate) fn way_through(sun_sine: f32) -> f32 {
+    1.0 / sun_sine.max(LEAST_SINE)
+}
+
+/// `w (1 - g^2) / (y - z cos)^(3/2)` is the forward lobe against all sides alike: its numerator, y and z.
+const fn forward() -> Vec3 {
+    let [weight, g] = FORWARD;
+    Vec3::new(weight * (1.0 - g * g), 1.0 + g * g, 2.0 * g)
+}
+
+/// `cloud_scattered` of the shader, by the cosine of a direction to the sun; without one, the mean of all directions.
+pub(crate) fn scattered(
+    clouds: &CloudUniforms,
+    cosine: Option<f32>,
+    depth: f32,
+    height: f32,
+) -> [f32; 2] {
+    let phase = cosine.map_or(1.0, |cosine| {
+        let Vec3 { x, y, z } = forward();
+        let root = 1.0 / (y - z * cosine).sqrt();
+        (x * root.powi(3) + BACKWARD[0] - BACKWARD[1] * cosine).min(BRIGHTEST)
+    });
+    let cosine = cosine.unwrap_or(0.0);
+    let lacking = POWDER[0] * (0.5 - 0.5 * cosine) * (1.0 - POWDER[1] * height).max(0.0);
+    let sided = 1.0 + (ABEAM - SIDED * cosine - 1.0) * clouds.low_sun;
+    let through = (-depth).exp2();
+    let rim = SINGLE[1] * phase * (-THIN * height).exp2() * through;
+    let body = (SINGLE[0] * through + MULTIPLE[0] * (-MULTIPLE[1] * depth).exp2()) * sided;
+    [
+        (body + rim) * (1.0 - lacking),
+        1.0 - HIDDEN * height.min(1.0),
+    ]
+}
+
+/// Share of the sunlight that middling clouds send to all sides that they send along a direction, by its cosine to the sun.
+pub(crate) fn scattered_facing(clouds: &CloudUniforms, cosine: f32) -> f32 {
+    let [depth, height] = MIDDLING;
+    let towards = |cosine| scattered(clouds, cosine, depth, height)[0];
+    towards(Some(cosine)) / towards(None)
+}
+
+/// `cloud_lit` of the shader without sunset.
+pub(crate) fn lit(clouds: &CloudUniforms, [sunlit, skylit]: [f32; 2]) -> Vec3 {
+    clouds.sunlight * sunlit + clouds.ambient * skylit
+}
+
 /// `cloud_facing` of the shader, by the cosine of a direction to the sun.
 pub(crate) fn facing(clouds: &CloudUniforms, cosine: f32, opacity: f32) -> f32 {
     let thin = 1.0 - opacity;
-    let rim = RIM * thin * thin * cosine.max(0.0).powi(4);
+    let rim = RIM * thin * thin * cosine.max(0.0).powi(8);
     1.0 + (ABEAM - SIDED * cosine + rim - 1.0) * clouds.low_sun
 }
 

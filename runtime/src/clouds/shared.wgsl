@@ -4,11 +4,35 @@
 // sees their lit sides, towards it their dark ones, with rims that let its light through.
 fn cloud_facing(direction: vec3f, opacity: f32) -> f32 {
     let cosine = dot(direction, uniforms.sky.sun_direction);
-    let ahead = max(cosine, 0.0);
-    let ahead_squared = ahead * ahead;
-    let thin = 1.0 - opacity;
-    let rim = CLOUD_RIM * thin * thin * ahead_squared * ahead_squared;
+    var ahead = max(cosine, 0.0);
+    ahead *= ahead;
+    ahead *= ahead;
+    let thin = (1.0 - opacity) * ahead;
+    let rim = CLOUD_RIM * thin * thin;
     return mix(1.0, CLOUD_ABEAM - CLOUD_SIDED * cosine + rim, uniforms.clouds.low_sun);
+}
+
+// Shares of sunlight and of skylight that a cloud sends along a direction: of what came through `depth` halvings from the sun, to a place
+// under so much cloud. What was scattered once follows the phase function, and only thin parts show it; what was scattered many times
+// comes from all sides, and is weakened less.
+fn cloud_scattered(direction: vec3f, depth: f32, height: f32) -> vec2f {
+    let cosine = dot(direction, uniforms.sky.sun_direction);
+    let root = inverseSqrt(CLOUD_FORWARD.y - CLOUD_FORWARD.z * cosine);
+    let phase = min(CLOUD_FORWARD.x * root * root * root + CLOUD_BACKWARD.x - CLOUD_BACKWARD.y * cosine, CLOUD_BRIGHTEST);
+    let lacking = CLOUD_POWDER.x * (0.5 - 0.5 * cosine) * max(1.0 - CLOUD_POWDER.y * height, 0.0);
+    // A low sun lights sides: one sees the lit ones away from it.
+    let sided = mix(1.0, CLOUD_ABEAM - CLOUD_SIDED * cosine, uniforms.clouds.low_sun);
+    let through = exp2(-depth);
+    let rim = CLOUD_SINGLE.y * phase * exp2(-depth - CLOUD_THIN * height);
+    let body = (CLOUD_SINGLE.x * through + CLOUD_MULTIPLE.x * exp2(-CLOUD_MULTIPLE.y * depth)) * sided;
+    return vec2f((body + rim) * (1.0 - lacking), 1.0 - CLOUD_HIDDEN * min(height, 1.0));
+}
+
+// Radiance of what these shares are of, under the sunset tint.
+fn cloud_lit(shares: vec2f, tint: f32) -> vec3f {
+    let clouds = uniforms.clouds;
+    let light = shares.x * clouds.sunlight + shares.y * clouds.ambient;
+    return light * mix(vec3f(1.0), clouds.tint, tint);
 }
 
 // Display-referred grey, as the papers compute it, to radiance: sunlight reaches the bright parts,

@@ -4,13 +4,15 @@ use super::config::SkyConfig;
 use super::layouts::Layouts;
 use super::pipeline::{Overlay, Variant, overlay_pipeline, pipelines};
 use super::shader::Build;
-use crate::params::{Method, SkyModel};
+use crate::params::{Method, Shading, SkyModel};
 
 /// What a shader draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dome {
     /// Whose clouds.
     pub method: Method,
+    /// How they are shaded.
+    pub shading: Shading,
     /// Whose clear sky.
     pub sky: SkyModel,
     /// Whether rays, rain and lightning are compiled in.
@@ -28,6 +30,8 @@ pub(crate) struct Context {
     pub layouts: Layouts,
     /// The textures of the pack that one method alone reads, at its place in [`Method::ALL`].
     pub own: [Option<wgpu::Texture>; Method::ALL.len()],
+    /// Texels a side of the packed texture.
+    pub clouds_texels: u32,
     /// Whether the sky is drawn on the dome's mesh.
     pub mesh: bool,
     /// Whether the target can be blended with.

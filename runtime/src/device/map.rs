@@ -77,22 +77,25 @@ impl Map {
         }
     }
 
-    /// Draws level 0 of one set of layers by `pipeline` from `source`, then the levels below it.
+    /// Draws level 0 of one set of layers by `pipeline` from `source`, if it needs one, then the levels below it.
     pub fn record(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         shared: &wgpu::BindGroup,
         (set, pipeline): (usize, &wgpu::RenderPipeline),
-        source: &wgpu::BindGroup,
+        source: Option<&wgpu::BindGroup>,
     ) {
         let at_once = self.levels[0].len() / self.averaging.len();
         let averaging = &self.averaging[set];
         let passes = [(pipeline, source)]
             .into_iter()
-            .chain(self.sources.iter().map(|above| (averaging, above)));
+            .chain(self.sources.iter().map(|above| (averaging, Some(above))));
         for (level, (pipeline, source)) in self.levels.iter().zip(passes) {
             let targets = &level[set * at_once..][..at_once];
-            draw_into(encoder, targets, pipeline, [shared, source]);
+            match source {
+                Some(source) => draw_into(encoder, targets, pipeline, [shared, source]),
+                None => draw_into(encoder, targets, pipeline, [shared]),
+            }
         }
     }
 }
@@ -143,7 +146,8 @@ impl Plane {
     /// Draws it and its levels.
     pub fn record(&self, encoder: &mut wgpu::CommandEncoder, shared: &wgpu::BindGroup) {
         let pipeline = (0, &self.pipeline);
-        self.map.record(encoder, shared, pipeline, &self.source);
+        self.map
+            .record(encoder, shared, pipeline, Some(&self.source));
     }
 
     /// The map itself.

@@ -24,7 +24,7 @@ pub const NORMAL_SLOPE: f32 = 0.797_884_6;
 pub const NORMAL_BEND: f32 = 0.044_715;
 
 /// The share of a normal distribution below z, by Page's approximation.
-#[cfg(feature = "fbm")]
+#[cfg(any(feature = "fbm", feature = "lit"))]
 pub(crate) fn normal_share(z: f32) -> f32 {
     0.5 + 0.5 * (NORMAL_SLOPE * z * (1.0 + NORMAL_BEND * z * z)).tanh()
 }

@@ -48,13 +48,13 @@ impl CloudMethod for Fbm {
         uniforms.fbm = fbm::uniforms(frame.params, &frame.view, octaves, sun);
     }
 
-    fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
-        fbm::overcast(&uniforms.fbm, &uniforms.clouds)
+    fn overcast(&self, params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
+        fbm::overcast(&uniforms.fbm, &uniforms.clouds, params.shading)
     }
 
-    fn mean(&self, _params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
+    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
         let spread = map::mean_and_spread(&pack.fbm).1;
-        coverage::mean(&uniforms.fbm, &uniforms.clouds, spread)
+        coverage::mean(&uniforms.fbm, &uniforms.clouds, params.shading, spread)
     }
 
     fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32 {

@@ -13,7 +13,7 @@ use crate::device::layouts::Layouts;
 use crate::frame::Uniforms;
 use crate::geometry::part::Part;
 use crate::pack_data::PackData;
-use crate::params::SkyParams;
+use crate::params::{Shading, SkyParams};
 
 /// A method, as the rest of the runtime sees it.
 pub(crate) trait CloudMethod: Sync {
@@ -58,12 +58,21 @@ pub(crate) trait CloudMethod: Sync {
     }
 
     /// Radiance of an overcast far away, where single clouds cannot be told apart.
-    fn overcast(&self, uniforms: &Uniforms, pack: &PackData) -> Vec3;
+    fn overcast(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> Vec3;
 
     /// Share of the sunlight of [`CloudMethod::mean`] that its clouds send along a unit direction.
-    fn facing(&self, uniforms: &Uniforms, direction: Vec3, opacity: f32) -> f32 {
+    fn facing(
+        &self,
+        params: &SkyParams,
+        uniforms: &Uniforms,
+        direction: Vec3,
+        opacity: f32,
+    ) -> f32 {
         let cosine = direction.dot(uniforms.sky.sun_direction);
-        shared::facing(&uniforms.clouds, cosine, opacity)
+        match params.shading {
+            Shading::Scattered => shared::scattered_facing(&uniforms.clouds, cosine),
+            Shading::Paper => shared::facing(&uniforms.clouds, cosine, opacity),
+        }
     }
 
     /// Mean opacity of its clouds away from the haze of the horizon, and their mean radiance where [`CloudMethod::facing`] is 1.

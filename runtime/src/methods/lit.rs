@@ -57,11 +57,17 @@ impl CloudMethod for Lit {
         uniforms.shadow = shadow::uniforms(params, &frame.view, &uniforms.lit);
     }
 
-    fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
+    fn overcast(&self, _params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
         lit::overcast(&uniforms.lit)
     }
 
-    fn facing(&self, uniforms: &Uniforms, direction: Vec3, opacity: f32) -> f32 {
+    fn facing(
+        &self,
+        _params: &SkyParams,
+        uniforms: &Uniforms,
+        direction: Vec3,
+        opacity: f32,
+    ) -> f32 {
         lit::facing(&uniforms.lit, &uniforms.clouds, direction, opacity)
     }
 

@@ -11,7 +11,7 @@ use crate::device::map::texture_bytes;
 use crate::frame::Uniforms;
 use crate::geometry::part::Part;
 use crate::pack_data::PackData;
-use crate::params::SkyParams;
+use crate::params::{Shading, SkyParams};
 
 pub(super) struct Octaves;
 
@@ -40,18 +40,21 @@ impl CloudMethod for Octaves {
     }
 
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
-        let azimuth = uniforms.clouds.sun_azimuth;
-        uniforms.octaves = octaves::uniforms(frame.params, &frame.view, azimuth);
+        let (azimuth, sun) = (uniforms.clouds.sun_azimuth, frame.light.sun_direction);
+        uniforms.octaves = octaves::uniforms(frame.params, &frame.view, azimuth, sun.y);
     }
 
-    fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
-        octaves::overcast(&uniforms.octaves, &uniforms.clouds)
+    fn overcast(&self, params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
+        match params.shading {
+            Shading::Scattered => coverage::mean_radiance(&uniforms.octaves, &uniforms.clouds),
+            Shading::Paper => octaves::paper_overcast(&uniforms.octaves, &uniforms.clouds),
+        }
     }
 
-    fn mean(&self, _params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
+    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
         (
             coverage::mean_opacity(&uniforms.octaves),
-            self.overcast(uniforms, pack),
+            self.overcast(params, uniforms, pack),
         )
     }
 

@@ -3,12 +3,15 @@
 use glam::Vec3;
 use welkin_pack::Role;
 
-use super::interface::{CloudMethod, MethodFrame, Shown};
-use crate::clouds::packed;
+use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
+use crate::clouds::packed::{self, coverage, map, paper};
+use crate::device::context::Context;
+use crate::device::layouts::Layouts;
+use crate::device::map::texture_bytes;
 use crate::frame::Uniforms;
 use crate::geometry::part::Part;
 use crate::pack_data::PackData;
-use crate::params::SkyParams;
+use crate::params::{Shading, SkyParams};
 
 pub(super) struct Packed;
 
@@ -18,27 +21,71 @@ impl CloudMethod for Packed {
     }
 
     fn parts(&self) -> &'static [Part] {
-        &[packed::PART]
+        &[packed::VEIL, packed::PART, map::PART, paper::PART]
     }
 
-    // Hardly ever, and to ask costs more than it saves.
-    fn is_often_opaque(&self) -> bool {
-        false
+    fn own_layout<'a>(&self, layouts: &'a Layouts) -> Option<&'a wgpu::BindGroupLayout> {
+        Some(&layouts.texture)
+    }
+
+    fn map(
+        &self,
+        context: &Context,
+        module: &wgpu::ShaderModule,
+        _params: &SkyParams,
+    ) -> Option<Box<dyn MapPass>> {
+        let (device, layouts) = (&context.device, &context.layouts);
+        let pass = map::Pass::new(device, module, layouts, context.clouds_texels);
+        Some(Box::new(pass))
     }
 
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
-        uniforms.packed = packed::uniforms(frame.params, &frame.view);
+        let sun = frame.light.sun_direction;
+        uniforms.packed = packed::uniforms(frame.params, &frame.view, sun);
     }
 
-    fn overcast(&self, uniforms: &Uniforms, pack: &PackData) -> Vec3 {
-        packed::overcast(&uniforms.packed, &uniforms.clouds, pack.cloud_means)
+    fn overcast(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> Vec3 {
+        let (packed, clouds) = (&uniforms.packed, &uniforms.clouds);
+        match params.shading {
+            Shading::Scattered => packed::overcast(packed, clouds, pack.cloud_means),
+            Shading::Paper => paper::overcast(packed, clouds, pack.cloud_means),
+        }
     }
 
-    fn mean(&self, _params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
-        packed::coverage::mean(&uniforms.packed, &uniforms.clouds, &pack.cloud_texels)
+    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
+        let (packed, clouds) = (&uniforms.packed, &uniforms.clouds);
+        coverage::mean(packed, clouds, params.shading, &pack.cloud_texels)
     }
 
     fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32 {
-        shown.texels.packed.covered(&shown.uniforms.packed, opacity)
+        let (packed, shading) = (&shown.uniforms.packed, shown.params.shading);
+        shown.texels.packed.covered(packed, shading, opacity)
+    }
+}
+
+impl MapPass for map::Pass {
+    fn record(
+        &mut self,
+        _queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        shared: &wgpu::BindGroup,
+        frame: &MapFrame<'_>,
+    ) {
+        // The paper's shading does not read it.
+        if frame.params.shading == Shading::Scattered {
+            self.draw(encoder, shared, frame.uniforms.packed.photo_step);
+        }
+    }
+
+    fn group(&self) -> &wgpu::BindGroup {
+        &self.group
+    }
+
+    fn texture(&self) -> &wgpu::Texture {
+        self.texture()
+    }
+
+    fn bytes(&self) -> u64 {
+        texture_bytes(self.texture())
     }
 }

@@ -27,7 +27,7 @@ impl CloudMethod for Sprites {
 
     fn parts(&self) -> &'static [Part] {
         // The dome shows the thin upper layer of the packed method.
-        &[packed::PART, pipelines::PART, ring::PART]
+        &[packed::VEIL, pipelines::PART, ring::PART]
     }
 
     // Behind sprites there are none.
@@ -53,12 +53,18 @@ impl CloudMethod for Sprites {
         sprites::overcast_weight(params, viewer_m, pack.cloud_heights_m)
     }
 
-    fn overcast(&self, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
+    fn overcast(&self, _params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
         sprites::overcast(&uniforms.sprites)
     }
 
     // They have their own sides.
-    fn facing(&self, _uniforms: &Uniforms, _direction: Vec3, _opacity: f32) -> f32 {
+    fn facing(
+        &self,
+        _params: &SkyParams,
+        _uniforms: &Uniforms,
+        _direction: Vec3,
+        _opacity: f32,
+    ) -> f32 {
         1.0
     }
 
@@ -67,7 +73,10 @@ impl CloudMethod for Sprites {
         let open = 1.0 - params.cover * params.sprites.formation;
         // Single heaps show more of their dark bases than a sheet does: measured.
         let heaps = HEAPS + (1.0 - HEAPS) * shared::overcast_weight(params.cover);
-        (1.0 - open.powf(1.25), self.overcast(uniforms, pack) * heaps)
+        (
+            1.0 - open.powf(1.25),
+            self.overcast(params, uniforms, pack) * heaps,
+        )
     }
 
     // The field's clouds are ranked by the fraction of the ground that they cover.

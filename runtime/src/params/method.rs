@@ -103,6 +103,41 @@ impl Method {
     }
 }
 
+/// How clouds are shaded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum Shading {
+    /// By the light that comes through them from sun or moon, from where it stands.
+    #[default]
+    Scattered,
+    /// As the method's paper has it, the same wherever the sun stands.
+    Paper,
+}
+
+impl Shading {
+    /// Every one, in the order of their numbers.
+    pub const ALL: [Shading; 2] = [Shading::Scattered, Shading::Paper];
+
+    /// The name on command lines and in settings.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Shading::Scattered => "scattered",
+            Shading::Paper => "paper",
+        }
+    }
+
+    /// What it is, in a few words.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Shading::Scattered => {
+                "By the light of sun or moon through the clouds, from where it stands"
+            }
+            Shading::Paper => "As the method's paper has it",
+        }
+    }
+}
+
 /// How the clear sky is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

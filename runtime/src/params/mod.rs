@@ -20,7 +20,7 @@ mod weather;
 
 pub use fbm::{FbmParams, PALETTES};
 pub use lit::{LAYERS_AN_ITERATION, LitLayer, LitParams, MAX_LAYERS};
-pub use method::{Method, SkyModel};
+pub use method::{Method, Shading, SkyModel};
 pub use octaves::{DEFAULT_OCTAVES, FORMATION_INTERVAL_S, MAX_OCTAVES, OctaveParams};
 pub use perez::{CUSTOM, LAST_OVERCAST, PerezParams, PerezShape, STANDARD_SKIES, TURBIDITY};
 pub use range::{ParamError, whole_within, within};

@@ -2,7 +2,7 @@
 
 use super::fbm::FbmParams;
 use super::lit::LitParams;
-use super::method::{Method, SkyModel};
+use super::method::{Method, Shading, SkyModel};
 use super::octaves::OctaveParams;
 use super::perez::PerezParams;
 use super::sprites::SpriteParams;
@@ -51,6 +51,8 @@ pub struct SkyParams {
     pub perez: PerezParams,
     /// Which system makes the clouds.
     pub method: Method,
+    /// How they are shaded. A change of it makes shaders anew.
+    pub shading: Shading,
     /// Of [`Method::Octaves`].
     pub octaves: OctaveParams,
     /// Of [`Method::Fbm`].
@@ -113,6 +115,7 @@ impl Default for SkyParams {
             sky: SkyModel::Table,
             perez: PerezParams::default(),
             method: Method::Packed,
+            shading: Shading::Scattered,
             octaves: OctaveParams::default(),
             fbm: FbmParams::default(),
             lit: LitParams::default(),

@@ -77,6 +77,8 @@ pub const SETTINGS: &[Setting] = settings! {
     Clouds {
         "method" "Method" "How the clouds are made"
             = text(choice(&text::METHODS), text::method, text::set_method);
+        "shading" "Shading" "How clouds are shaded"
+            = text(choice(&text::SHADINGS), text::shading, text::set_shading);
         "upper" "Upper layer" "Amount of a thin upper layer, 0 (none) to 1"
             = plain!(upper_layer, UNIT).of(PLAIN).value("U").range_said().blends();
         "octaves" "Octaves" "How many octaves are summed"

@@ -2,7 +2,7 @@
 
 use super::fbm::PALETTES;
 use super::layers::{layers as read_layers, layers_text};
-use super::method::{Method, SkyModel};
+use super::method::{Method, Shading, SkyModel};
 use super::perez::{CUSTOM, LAST_OVERCAST, PerezShape, STANDARD_SKIES};
 use super::range::{between_commas, comma_text, whole_within, within};
 use super::setting::NONE;
@@ -36,6 +36,12 @@ pub const MODELS: [[&str; MODEL_COUNT]; 2] = {
         i += 1;
     }
     texts
+};
+
+/// Names of the shadings, and what they are.
+pub const SHADINGS: [[&str; 2]; 2] = {
+    let [a, b] = Shading::ALL;
+    [[a.name(), b.name()], [a.title(), b.title()]]
 };
 
 /// Names of the tone curves, and what they are.
@@ -85,6 +91,15 @@ pub fn model(params: &SkyParams) -> String {
 
 pub fn set_model(params: &mut SkyParams, text: &str) -> Result<(), String> {
     params.sky = SkyModel::ALL[index(&MODELS[0], text)?];
+    Ok(())
+}
+
+pub fn shading(params: &SkyParams) -> String {
+    params.shading.name().to_string()
+}
+
+pub fn set_shading(params: &mut SkyParams, text: &str) -> Result<(), String> {
+    params.shading = Shading::ALL[index(&SHADINGS[0], text)?];
     Ok(())
 }
 

@@ -87,7 +87,7 @@ impl PackData {
 
         let shown = clamped.method.clouds();
         let overcast_weight = shown.overcast_weight(clamped, view.place_m.y as f32, self);
-        let overcast = shown.overcast(&uniforms, self);
+        let overcast = shown.overcast(clamped, &uniforms, self);
         uniforms.sky = table::uniforms(
             &lit.view,
             light.sun_direction,

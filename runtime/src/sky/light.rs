@@ -20,7 +20,7 @@ use crate::geometry::camera::Camera;
 use crate::geometry::harmonics::{CLAMPED_COSINE, COUNT, FACTORS, basis};
 use crate::geometry::math::{luminance, smoothstep};
 use crate::pack_data::PackData;
-use crate::params::{Method, SkyParams};
+use crate::params::SkyParams;
 use crate::sky::air::Air;
 
 /// Light from one direction.
@@ -78,8 +78,8 @@ const EXPOSURES: [f32; 2] = [1.0 / 64.0, 64.0];
 const GROUND_ROWS: u32 = 12;
 
 /// What clouds are on average.
-struct Clouds {
-    method: Method,
+struct Clouds<'a> {
+    params: &'a SkyParams,
     opacity: f32,
     /// Radiance by sunlight that they show where they are lit from all sides.
     sunlit: Vec3,
@@ -87,8 +87,8 @@ struct Clouds {
     skylit: Vec3,
 }
 
-impl Clouds {
-    fn new(data: &PackData, params: &SkyParams, uniforms: &Uniforms) -> Clouds {
+impl<'a> Clouds<'a> {
+    fn new(data: &PackData, params: &'a SkyParams, uniforms: &Uniforms) -> Clouds<'a> {
         let method = params.method.clouds();
         let mut sunless = *uniforms;
         sunless.clouds.sunlight = Vec3::ZERO;
@@ -99,7 +99,7 @@ impl Clouds {
         let (opacity, whole) = method.mean(params, uniforms, data);
         let (_, skylit) = method.mean(params, &sunless, data);
         Clouds {
-            method: params.method,
+            params,
             opacity: opacity.clamp(0.0, 1.0),
             sunlit: whole - skylit,
             skylit,
@@ -112,8 +112,8 @@ impl Clouds {
     }
 
     fn over(&self, behind: Vec3, uniforms: &Uniforms, direction: Vec3) -> Vec3 {
-        let method = self.method.clouds();
-        let facing = method.facing(uniforms, direction, self.opacity);
+        let method = self.params.method.clouds();
+        let facing = method.facing(self.params, uniforms, direction, self.opacity);
         let cloud = self.sunlit * facing + self.skylit;
         behind.lerp(cloud, self.opacity(uniforms, direction.y))
     }

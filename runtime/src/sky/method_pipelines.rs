@@ -3,7 +3,7 @@
 use crate::device::context::{Context, Dome};
 use crate::device::pipeline::{Overlay, Variant};
 use crate::methods::interface::MapPass;
-use crate::params::{Method, SkyModel, SkyParams};
+use crate::params::{Method, Shading, SkyModel, SkyParams};
 #[cfg(feature = "weather")]
 use crate::weather::overlays::{Overlays, Shown};
 
@@ -11,6 +11,8 @@ use crate::weather::overlays::{Overlays, Shown};
 #[derive(Debug)]
 pub(crate) struct MethodPipelines {
     method: Method,
+    /// Of its clouds.
+    pub shading: Shading,
     /// Of each sky model, at its place in [`SkyModel::ALL`]; without weather, and with it.
     pipelines: [[Option<[wgpu::RenderPipeline; 4]>; 2]; SkyModel::ALL.len()],
     pub flare: Option<wgpu::RenderPipeline>,
@@ -23,10 +25,11 @@ pub(crate) struct MethodPipelines {
 impl MethodPipelines {
     /// What the method of the parameters needs, for their sky model.
     pub fn new(context: &Context, params: &SkyParams) -> MethodPipelines {
-        let (method, sky) = (params.method, params.sky);
+        let (method, sky, shading) = (params.method, params.sky, params.shading);
         let own = method.clouds().own_layout(&context.layouts);
         let module = context.module(Dome {
             method,
+            shading,
             sky,
             weather: false,
         });
@@ -35,6 +38,7 @@ impl MethodPipelines {
         models[sky as usize][0] = Some(context.pipelines(&module, own, false));
         MethodPipelines {
             method,
+            shading,
             pipelines: models,
             flare: context.blends.then(flare),
             map: method.clouds().map(context, &module, params),
@@ -55,6 +59,7 @@ impl MethodPipelines {
     pub fn ensure_sky(&mut self, context: &Context, sky: SkyModel, weather: bool) {
         let dome = Dome {
             method: self.method,
+            shading: self.shading,
             sky,
             weather,
         };
@@ -81,8 +86,9 @@ impl MethodPipelines {
     ) {
         let layout = self.method.clouds().own_layout(&context.layouts);
         let own = layout.zip(self.map.as_ref().map(|map| map.group()));
+        let clouds = (self.method, self.shading);
         self.weather
-            .record(context, self.method, shown, encoder, shared, own);
+            .record(context, clouds, shown, encoder, shared, own);
     }
 
     /// Bytes of the textures that it draws.

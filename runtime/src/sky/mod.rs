@@ -146,6 +146,7 @@ impl Sky {
         let usable = config.target_format.guaranteed_format_features(features);
         let context = Context {
             own,
+            clouds_texels: pack_data.clouds_texels,
             mesh: dome_step_deg.is_some(),
             blends: usable
                 .flags
@@ -406,8 +407,14 @@ fn ensured<'a>(
     context: &Context,
     params: &SkyParams,
 ) -> &'a mut MethodPipelines {
-    let new = || MethodPipelines::new(context, params);
-    let own = pipelines[params.method as usize].get_or_insert_with(new);
+    let own = &mut pipelines[params.method as usize];
+    if own
+        .as_ref()
+        .is_some_and(|own| own.shading != params.shading)
+    {
+        *own = None;
+    }
+    let own = own.get_or_insert_with(|| MethodPipelines::new(context, params));
     own.ensure(context, params);
     own
 }

@@ -1,5 +1,6 @@
-// What is behind the clouds: clear sky, what shows through it at night, the sun, a picture in place of them.
-fn behind_clouds(direction: vec3f, pixel: vec2f) -> vec3f {
+// What is behind the clouds: clear sky, what shows through it at night, the sun, a picture in place of them. Clouds leave `clear` of it; of
+// the sun's own light they leave its cube, since most of what they scatter goes on nearly straight and is theirs.
+fn behind_clouds(direction: vec3f, pixel: vec2f, clear: f32) -> vec3f {
     var radiance = sky_radiance(direction);
     if NIGHT && direction.y > 0.0 {
         let dome = direction_to_dome(direction);
@@ -7,7 +8,7 @@ fn behind_clouds(direction: vec3f, pixel: vec2f) -> vec3f {
         let night = galaxy * uniforms.galaxy.radiance + star_radiance(dome, direction, pixel, galaxy);
         radiance += night * smoothstep(0.0, EXTINCTION, direction.y);
     }
-    radiance += sun_radiance(direction);
+    radiance += sun_radiance(direction) * (clear * clear);
     if SKYBOX {
         radiance = skybox_mix(radiance, direction);
     }
@@ -24,7 +25,7 @@ fn fs_sky(in: Varyings) -> @location(0) vec4f {
     }
     var radiance = clouds.rgb;
     if !ASK_OPAQUE || clouds.a < 1.0 {
-        radiance = mix(behind_clouds(direction, in.position.xy), clouds.rgb, clouds.a);
+        radiance = mix(behind_clouds(direction, in.position.xy, 1.0 - clouds.a), clouds.rgb, clouds.a);
     }
     radiance = weather(radiance, direction, clouds);
     return finish(radiance, in.position.xy);

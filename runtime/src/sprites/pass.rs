@@ -19,7 +19,7 @@ use super::ring::{Ring, Step};
 use super::scene::{AMOUNTS_SIDE, Draw, Scene, planes};
 use super::station::{self, RingUniforms, SpriteView};
 use crate::device::context::{Context, Dome};
-use crate::params::{Method, SkyModel};
+use crate::params::{Method, Shading, SkyModel};
 
 /// Views of a frame: the screen's and the ring's pictures'.
 const VIEWS: u64 = 1 + station::PICTURES as u64;
@@ -115,6 +115,7 @@ impl Pass {
         self.pipelines[sky as usize].get_or_insert_with(|| {
             let dome = Dome {
                 method: Method::Sprites,
+                shading: Shading::default(),
                 sky,
                 weather: false,
             };

@@ -4,7 +4,7 @@ use super::rain::{RainUniforms, vertices};
 use super::rays::{self, RayUniforms};
 use crate::device::context::{Context, Dome};
 use crate::device::pipeline::Overlay;
-use crate::params::{Method, SkyModel};
+use crate::params::{Method, Shading, SkyModel};
 
 /// Rays and rain over the sky of a method.
 #[derive(Debug, Default)]
@@ -36,7 +36,7 @@ impl Overlays {
     pub fn record(
         &mut self,
         context: &Context,
-        method: Method,
+        (method, shading): (Method, Shading),
         shown: Shown,
         encoder: &mut wgpu::CommandEncoder,
         shared: &wgpu::BindGroup,
@@ -48,6 +48,7 @@ impl Overlays {
         // Clear sky is not asked for.
         let dome = Dome {
             method,
+            shading,
             sky: SkyModel::Table,
             weather: true,
         };

@@ -153,6 +153,20 @@ fn fbm_of_one_octave_and_of_eight() {
     assert_maps_agree(&pack::with_octaves(8), &cases);
 }
 
+#[test]
+fn packed_for_any_place_of_the_sun_and_height() {
+    let mut cases = Vec::new();
+    for (time, height) in [(0.26, 0.7), (0.4, 0.0), (0.5, 0.7), (0.6, 1.0), (0.0, 0.5)] {
+        let params = SkyParams {
+            time,
+            height,
+            ..SkyParams::default()
+        };
+        cases.push((params, 12.0));
+    }
+    assert_maps_agree(pack::default_pack(), &cases);
+}
+
 fn lit(layers: &[LitLayer]) -> SkyParams {
     SkyParams {
         method: Method::Lit,

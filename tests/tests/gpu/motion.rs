@@ -237,7 +237,10 @@ fn change_of_reads(facts: &PackData, params: &SkyParams, frame: &Frame, seconds:
             let share = FRAME_S as f32 / params.octaves.formation_interval_s;
             let states = facts.octave_states(params, seconds);
             let amount = octaves_map::most_change_of_amount(&states, share);
-            vec![octaves_map::slopes(&frame.uniforms.octaves).map(|slope| slope * amount)]
+            vec![
+                octaves_map::slopes(&frame.uniforms.octaves, frame.shading)
+                    .map(|slope| slope * amount),
+            ]
         }
         Method::Lit => lit_formed(facts, params, frame, seconds),
     };

@@ -1,7 +1,7 @@
 //! A frame is a pure function of pack, parameters, camera and seconds.
 
 use welkin_pack::LayerKind;
-use welkin_runtime::params::{LitLayer, LitParams, OctaveParams, SkyModel, SpriteParams};
+use welkin_runtime::params::{LitLayer, LitParams, OctaveParams, Shading, SkyModel, SpriteParams};
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::{gpu, pack};
 
@@ -103,6 +103,28 @@ fn another_model_of_the_clear_sky_and_back_is_the_same_sky() {
         let mut new = gpu::sky(pack::default_pack(), FORMAT);
         assert_same(&with(&mut new, SkyModel::Table), &gradient, method.name());
         assert_same(&with(&mut sky, SkyModel::Perez), &perez, method.name());
+    }
+}
+
+/// With a low sun, which lights clouds from the side in every method, but not in their papers.
+#[test]
+fn another_shading_and_back_is_the_same_sky() {
+    for method in Method::ALL {
+        let with = |sky: &mut Sky, shading: Shading| {
+            let params = SkyParams {
+                shading,
+                ..params(method, 2600.0)
+            };
+            gpu::render(sky, FORMAT, &params, &view(20.0), 20.0)
+        };
+        let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+        let [paper, scattered] =
+            [Shading::Paper, Shading::Scattered].map(|shading| with(&mut sky, shading));
+        assert_ne!(paper, scattered, "{}", method.name());
+        let mut new = gpu::sky(pack::default_pack(), FORMAT);
+        let fresh = with(&mut new, Shading::Scattered);
+        assert_same(&fresh, &scattered, method.name());
+        assert_same(&with(&mut sky, Shading::Paper), &paper, method.name());
     }
 }
 

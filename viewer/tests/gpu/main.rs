@@ -6,5 +6,6 @@ mod common;
 mod environment;
 mod export;
 mod light;
+mod look;
 mod methods;
 mod program;

@@ -8,6 +8,7 @@ use super::{FULL, FbmUniforms, radiance_at};
 use crate::clouds::histogram::Histogram;
 use crate::clouds::shared::{CloudUniforms, inverse_roughen, inverse_smoothstep};
 use crate::geometry::math::smoothstep;
+use crate::params::Shading;
 
 /// The distribution of the weighted sum of a pack's octaves.
 pub(crate) fn sums(texture: &Texture) -> Histogram {
@@ -30,7 +31,12 @@ pub(crate) fn covered(sums: &Histogram, fbm: &FbmUniforms, opacity: f32) -> f32 
 }
 
 /// Mean opacity and radiance of its clouds: the sum of octaves is about normally distributed.
-pub(crate) fn mean(fbm: &FbmUniforms, clouds: &CloudUniforms, spread: f32) -> (f32, Vec3) {
+pub(crate) fn mean(
+    fbm: &FbmUniforms,
+    clouds: &CloudUniforms,
+    shading: Shading,
+    spread: f32,
+) -> (f32, Vec3) {
     /// Nodes a standard deviation, and how many each way.
     const NODES: [i32; 2] = [4, 12];
     let [fine, most] = NODES;
@@ -41,7 +47,7 @@ pub(crate) fn mean(fbm: &FbmUniforms, clouds: &CloudUniforms, spread: f32) -> (f
         let amount = fbm.mean + spread * deviations;
         let cover = (fbm.slope * amount + fbm.intercept).clamp(0.0, 1.0);
         let alpha = weight * smoothstep(0.0, FULL, cover);
-        light += alpha * radiance_at(fbm, clouds, amount);
+        light += alpha * radiance_at(fbm, clouds, shading, amount);
         opacity += alpha;
         whole += weight;
     }

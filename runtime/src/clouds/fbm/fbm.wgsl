@@ -14,7 +14,11 @@ fn fbm_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let alpha = smoothstep(0.0, FBM_FULL, cloud.a + rough);
     let shade = clamp(fbm.shade_strength * (cloud.r + FBM_ROUGH_SHADE * finer * cloud.a), 0.0, 1.0);
     let colour = mix(fbm.lit, fbm.shaded, shade);
-    let tinted = colour * mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
-    let radiance = tinted * (cloud_facing(direction, alpha) * uniforms.clouds.sunlight + uniforms.clouds.ambient);
+    var light = colour * (uniforms.clouds.sunlight + uniforms.clouds.ambient);
+    if SCATTERED {
+        let shares = cloud_scattered(direction, FBM_DEPTH * shade, FBM_THICK * cloud.a);
+        light = fbm.lit * (shares.x * uniforms.clouds.sunlight) + colour * (shares.y * uniforms.clouds.ambient);
+    }
+    let radiance = light * mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
     return vec4f(radiance, alpha * cloud_clearness(direction));
 }

@@ -9,7 +9,9 @@
 //! - a is found from the cover: the share of a normal distribution with the mean and the spread of the pack's octaves.
 //! - Opacity rises smoothly from the article's cover and is full at [`FULL`] of it: its straight line makes either
 //!   hard feet or glassy bodies.
-//! - The two colours are reflectances; the light of the time of day falls on them.
+//! - The two colours are reflectances; the light of the time of day falls on them. By default the shade halves sunlight, of which
+//!   [`crate::clouds::shared`] says what is scattered to the eye: then the lit colour is that of sunlight, and between both lies that of
+//!   skylight. With [`Shading::Paper`] the shade goes from one to the other, as in the article.
 //! - The dome reads the map a second time, finer: four octaves of 8 to 64 cells are soft so near to the eye. It roughens
 //!   edges only.
 //!
@@ -23,12 +25,12 @@ pub mod pack;
 use glam::{DMat2, DVec2, Vec2, Vec3, Vec4};
 
 use crate::clouds::shared::{
-    CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, offset, overcast_weight,
+    CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, offset, overcast_weight, scattered,
 };
 use crate::geometry::math::normal_share;
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
-use crate::params::SkyParams;
+use crate::params::{Shading, SkyParams};
 
 /// Its part of the shader.
 pub const PART: Part = Part {
@@ -37,6 +39,8 @@ pub const PART: Part = Part {
         ("FBM_FINER_LEVEL", Value::Log2(FINER)),
         ("FBM_ROUGH_SHADE", Value::F32(ROUGH_SHADE)),
         ("FBM_FULL", Value::F32(FULL)),
+        ("FBM_DEPTH", Value::F32(DEPTH)),
+        ("FBM_THICK", Value::F32(THICK)),
         ("FBM_FINER_START", Value::Vec2(FINER_START)),
     ],
     structs: &[FbmUniforms::WGSL],
@@ -98,6 +102,11 @@ const SHADE: [f32; 2] = [0.85, 1.1];
 const ROUGHNESS: f32 = 0.9;
 /// How much the finer read changes the shade where the sky is full.
 pub const ROUGH_SHADE: f32 = 0.9;
+
+/// Halvings of sunlight where the article's shade is full: that ends, and so do they. Chosen by eye, as is the next one.
+pub const DEPTH: f32 = 4.0;
+/// The height of a cloud whose cover in the map is 1.
+pub const THICK: f32 = 0.8;
 
 /// How far the map reaches in heights of the layer, at height 0 and 1.
 const TILE: [f64; 2] = [7.0, 3.4];
@@ -180,12 +189,12 @@ fn normal_quantile(share: f32) -> f32 {
 }
 
 /// Radiance of an overcast sky far away: every height along the ray is the mean one.
-pub fn overcast(fbm: &FbmUniforms, clouds: &CloudUniforms) -> Vec3 {
-    radiance_at(fbm, clouds, fbm.mean)
+pub fn overcast(fbm: &FbmUniforms, clouds: &CloudUniforms, shading: Shading) -> Vec3 {
+    radiance_at(fbm, clouds, shading, fbm.mean)
 }
 
 /// Radiance of a place with this sum of octaves, where the sky around has its mean: heights along the ray are those of the map.
-fn radiance_at(fbm: &FbmUniforms, clouds: &CloudUniforms, amount: f32) -> Vec3 {
+fn radiance_at(fbm: &FbmUniforms, clouds: &CloudUniforms, shading: Shading, amount: f32) -> Vec3 {
     let height = fbm.slope * amount + fbm.ray_intercept;
     let inside = map::DEPTHS
         .iter()
@@ -193,8 +202,16 @@ fn radiance_at(fbm: &FbmUniforms, clouds: &CloudUniforms, amount: f32) -> Vec3 {
         .sum::<f32>()
         / 4.0;
     let shade = fbm.shade_strength * (1.0 - (-map::ABSORPTION * inside).exp2());
-    let colour = fbm.lit.lerp(fbm.shaded, shade.clamp(0.0, 1.0));
-    colour * (clouds.sunlight + clouds.ambient)
+    let shade = shade.clamp(0.0, 1.0);
+    let colour = fbm.lit.lerp(fbm.shaded, shade);
+    match shading {
+        Shading::Scattered => {
+            let cover = (fbm.slope * amount + fbm.intercept).clamp(0.0, 1.0);
+            let [sunlit, skylit] = scattered(clouds, None, DEPTH * shade, THICK * cover);
+            fbm.lit * clouds.sunlight * sunlit + colour * clouds.ambient * skylit
+        }
+        Shading::Paper => colour * (clouds.sunlight + clouds.ambient),
+    }
 }
 
 #[cfg(test)]

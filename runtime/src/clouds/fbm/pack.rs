@@ -7,7 +7,7 @@
 //!
 //! # Changes versus the article
 //! There the sun stands still and the channels are baked. Here a pass fills them anew whenever the sun has moved into
-//! another cell of [`CELL_RAD`], a sixteenth of a degree of azimuth and of elevation, for the middle of that cell. The third step
+//! another cell of [`CELL_RAD`](crate::clouds::march::CELL_RAD), a sixteenth of a degree of azimuth and of elevation, for the middle of that cell. The third step
 //! then moves by `3 STEP_TILES CELL_RAD / sin^2(elevation)` at most, 0.07 of a texel of 256 where steps are longest. What a picture
 //! changes by is hardly more than the rounding of eight bits ([`SHADE_BYTES`]).
 //!
@@ -17,6 +17,7 @@
 
 use glam::{DVec2, Vec2, Vec3};
 
+use crate::clouds::march::SunCell;
 use crate::device::layouts::Layouts;
 use crate::device::map;
 use crate::geometry::part::Part;
@@ -27,9 +28,6 @@ pub const PART: Part = Part {
     structs: &[],
     wgsl: include_str!("pack.wgsl"),
 };
-
-/// How far the sun goes, in azimuth or elevation, before octaves are packed anew: 1/16 degree, in radians.
-pub const CELL_RAD: f64 = std::f64::consts::PI / 180.0 / 16.0;
 
 /// The most, in steps of a byte, that the shade in the map changes when octaves are packed anew, at the default sharpness.
 ///
@@ -45,18 +43,9 @@ const LONGEST_STEP_TILES: f64 = 1.0 / 26.0;
 
 /// A step towards the sun in tiles of the map, which is turned by `turn_rad`.
 pub fn step(sun: Vec3, turn_rad: f64) -> Vec2 {
-    let [azimuth, elevation] = cell(sun).map(|cell| (f64::from(cell) + 0.5) * CELL_RAD);
-    let length = (STEP_TILES / elevation.max(0.01).tan()).clamp(0.0, LONGEST_STEP_TILES);
-    // East and south of an azimuth that goes from north towards east.
-    let towards = DVec2::new(azimuth.sin(), -azimuth.cos());
-    (DVec2::from_angle(turn_rad).rotate(towards) * length).as_vec2()
-}
-
-/// The cell of azimuth and elevation in which the sun stands.
-fn cell(sun: Vec3) -> [i32; 2] {
-    let azimuth = f64::from(sun.x).atan2(-f64::from(sun.z));
-    let elevation = f64::from(sun.y).clamp(-1.0, 1.0).asin();
-    [azimuth, elevation].map(|angle| (angle / CELL_RAD).floor() as i32)
+    let cell = SunCell::of(sun);
+    let length = (STEP_TILES / cell.elevation_rad.max(0.01).tan()).clamp(0.0, LONGEST_STEP_TILES);
+    (DVec2::from_angle(turn_rad).rotate(cell.towards) * length).as_vec2()
 }
 
 /// The pass on a device.
@@ -126,6 +115,7 @@ impl Pass {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::clouds::march::CELL_RAD;
 
     fn sun(azimuth_deg: f32, elevation_deg: f32) -> Vec3 {
         Vec3::from(welkin_pack::mapping::direction_from_angles(

@@ -87,7 +87,8 @@ impl Pass {
     pub fn draw(&self, encoder: &mut wgpu::CommandEncoder, shared: &wgpu::BindGroup, count: usize) {
         let iterations = self.drawing.iter().enumerate();
         for drawing in iterations.take(count.div_ceil(LAYERS_AN_ITERATION)) {
-            self.map.record(encoder, shared, drawing, &self.source);
+            self.map
+                .record(encoder, shared, drawing, Some(&self.source));
         }
     }
 }

@@ -1,8 +1,14 @@
 //! How much of the sky the octaves method covers: its map holds shares of its own distribution, so every amount is equally likely, and three
 //! domes and the finer read are independent.
 
-use super::{EDGE, HIGH_OPACITY, MIDDLE_OPACITY, OctaveDome, OctaveUniforms, THIN};
-use crate::clouds::shared::{behind, inverse_roughen, inverse_soften, softened};
+use glam::Vec3;
+
+use super::{
+    BODY_HEIGHTS, EDGE, HIGH_OPACITY, MIDDLE_OPACITY, OctaveDome, OctaveUniforms, THIN, THIN_DEPTH,
+};
+use crate::clouds::shared::{
+    CloudUniforms, behind, inverse_roughen, inverse_soften, lit, scattered, softened,
+};
 use crate::geometry::math::smoothstep;
 
 /// Points at which smooth functions are averaged or tabulated.
@@ -68,18 +74,45 @@ fn clearness(dome: &OctaveDome, of_thickness: impl Fn(f32) -> f32) -> Vec<[f32; 
 
 /// Mean opacity of its clouds. Finer reads roughen edges evenly.
 pub(crate) fn mean_opacity(octaves: &OctaveUniforms) -> f32 {
-    let mean = |dome: &OctaveDome, opacity: &dyn Fn(f32) -> f32| {
-        let nodes = (0..NODES).map(|i| (i as f32 + 0.5) / NODES as f32 - dome.threshold);
-        nodes
-            .map(|thickness| opacity(thickness.max(0.0)))
-            .sum::<f32>()
-            / NODES as f32
-    };
-    let full = |exponent: f32, thickness: f32| softened(1.0 - (exponent * thickness).exp2(), EDGE);
-    let low = mean(&octaves.low, &|t| full(octaves.exponent, t));
-    let middle = mean(&octaves.middle, &|t| full(THIN * octaves.exponent, t));
-    let high = mean(&octaves.high, &|t| {
+    let low = mean_over(&octaves.low, &|t| low_opacity(octaves, t));
+    1.0 - (1.0 - low) * clear_of_thin(octaves)
+}
+
+/// Mean radiance of its clouds towards all sides: what the low dome shows of its depth, by how opaque it is.
+pub(crate) fn mean_radiance(octaves: &OctaveUniforms, clouds: &CloudUniforms) -> Vec3 {
+    let clear = clear_of_thin(octaves);
+    let (mut light, mut opacity) = (Vec3::ZERO, 0.0);
+    for i in 0..NODES {
+        let amount = (i as f32 + 0.5) / NODES as f32;
+        let alpha = low_opacity(octaves, (amount - octaves.low.threshold).max(0.0));
+        let above = (amount - octaves.low.threshold.max(0.0)).max(0.0);
+        let depth = THIN_DEPTH + (octaves.extinction * above - THIN_DEPTH) * alpha;
+        let height = BODY_HEIGHTS[0] + (BODY_HEIGHTS[1] - BODY_HEIGHTS[0]) * alpha;
+        let whole = 1.0 - (1.0 - alpha) * clear;
+        light += whole * lit(clouds, scattered(clouds, None, depth, height));
+        opacity += whole;
+    }
+    light / opacity.max(1e-6)
+}
+
+fn low_opacity(octaves: &OctaveUniforms, thickness: f32) -> f32 {
+    softened(1.0 - (octaves.exponent * thickness).exp2(), EDGE)
+}
+
+/// What the middle and the high dome leave, on average.
+fn clear_of_thin(octaves: &OctaveUniforms) -> f32 {
+    let middle = mean_over(&octaves.middle, &|t| {
+        softened(1.0 - (THIN * octaves.exponent * t).exp2(), EDGE)
+    });
+    let high = mean_over(&octaves.high, &|t| {
         smoothstep(0.0, 1.0, t * octaves.high_contrast)
     });
-    1.0 - (1.0 - low) * (1.0 - MIDDLE_OPACITY * middle) * (1.0 - HIGH_OPACITY * high)
+    (1.0 - MIDDLE_OPACITY * middle) * (1.0 - HIGH_OPACITY * high)
+}
+
+/// Mean of an opacity over the thicknesses of a dome.
+fn mean_over(dome: &OctaveDome, opacity: &dyn Fn(f32) -> f32) -> f32 {
+    let nodes = (0..NODES).map(|i| (i as f32 + 0.5) / NODES as f32 - dome.threshold);
+    let opacities = nodes.map(|thickness| opacity(thickness.max(0.0)));
+    opacities.sum::<f32>() / NODES as f32
 }

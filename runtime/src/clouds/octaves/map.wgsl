@@ -45,7 +45,8 @@ fn octaves_sum(uv: vec2f, first: i32, count: i32) -> f32 {
     return sum;
 }
 
-// R: the amount; G: opacity of the low dome; B: of the middle dome; A: display-referred grey of the low dome.
+// R: the amount; G: opacity of the low dome; B: of the middle dome; A: what it leaves of sunlight, or its display-referred grey as the paper
+// shades it.
 @fragment
 fn fs_octaves_map(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let octaves = uniforms.octaves;
@@ -61,6 +62,9 @@ fn fs_octaves_map(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let low = octaves_alpha(thickness, octaves.exponent);
     let middle = octaves_alpha(amount - octaves.middle.threshold, OCTAVE_THIN * octaves.exponent);
     // In an overcast sky the cut is below 0, and what lies under 0 does not darken.
-    let dark = octaves.darkening * max(amount - max(octaves.low.threshold, 0.0), 0.0);
-    return vec4f(amount, low, middle, octaves.edge_grey + relief - dark);
+    let above = max(amount - max(octaves.low.threshold, 0.0), 0.0);
+    if SCATTERED {
+        return vec4f(amount, low, middle, exp2(-max(octaves.extinction * (above - relief), 0.0)));
+    }
+    return vec4f(amount, low, middle, octaves.edge_grey + relief - octaves.darkening * above);
 }

@@ -11,8 +11,8 @@
 //! - Cover comes before the exponentiation, as in the page of H. Elias that the paper cites ("Cloud Cover"): the other
 //!   way round, sharpness 1 would make everything cloud instead of edges abrupt.
 //! - The map holds shares of its own distribution, so that the share of cloud on the sky is the cover.
-//! - The paper's clouds are flat white. Here thickness darkens, and the difference to the amount one step towards
-//!   the sun gives relief.
+//! - The paper's clouds are flat white. Here thickness and the difference to the amount one step towards the sun say how much light comes
+//!   through, and [`crate::clouds::shared`] what of it is scattered to the eye. With [`crate::params::Shading::Paper`] they darken a grey.
 //! - Density thickens: it multiplies the exponent. The foot of the opacity is softened, as in the packed method.
 //! - The veil of the high dome rises as a smoothstep that is half full where the exponentiation is: the same to the eye,
 //!   without an exponential a pixel.
@@ -30,6 +30,7 @@ use glam::{DMat2, DVec2, Vec2, Vec3, Vec4};
 
 use crate::clouds::shared::{
     CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, offset, overcast_weight, radiance,
+    way_through,
 };
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
@@ -40,6 +41,10 @@ pub const PART: Part = Part {
     constants: &[
         ("OCTAVE_FINER", Value::F32(FINER)),
         ("OCTAVE_ROUGH_GREY", Value::F32(ROUGH_GREY)),
+        ("OCTAVE_ROUGH_DEPTH", Value::F32(ROUGH_DEPTH)),
+        ("OCTAVE_THIN_DEPTH", Value::F32(THIN_DEPTH)),
+        ("OCTAVE_LEAST_LIGHT", Value::F32(LEAST_LIGHT)),
+        ("OCTAVE_HEIGHTS", Value::Vec2(BODY_HEIGHTS)),
         ("OCTAVE_FINER_LEVEL", Value::Log2(FINER)),
         ("OCTAVE_EDGE", Value::F32(EDGE)),
         ("OCTAVE_THIN", Value::F32(THIN)),
@@ -84,8 +89,10 @@ uniforms! {
         roughness: f32,
         /// A step of the low dome towards the sun, in uv.
         sun_step: Vec2,
+        /// Halvings of sunlight by a thickness of 1.
+        extinction: f32,
         /// Nothing.
-        _pad: Vec2,
+        _pad: f32,
         /// Copies of the noise across the map, four octaves a vector.
         copies: [Vec4; 2],
         /// How many octaves are summed.
@@ -103,6 +110,16 @@ uniforms! {
 pub const FINER: f32 = 5.0;
 /// How much the second read changes the grey.
 pub const ROUGH_GREY: f32 = 0.2;
+/// How much it changes the halvings of sunlight.
+pub const ROUGH_DEPTH: f32 = 0.9;
+/// Halvings of sunlight that thin clouds see.
+pub const THIN_DEPTH: f32 = 0.3;
+/// The least that a cloud leaves of sunlight: a step of a byte.
+pub const LEAST_LIGHT: f32 = 1.0 / 255.0;
+/// Heights of thin clouds and of the low dome's where it is opaque.
+pub const BODY_HEIGHTS: [f32; 2] = [0.12, 0.6];
+/// Halvings of sunlight by a thickness of 1, at density 0 and 1.
+const EXTINCTION: [f32; 2] = [6.0, 9.0];
 /// Where the second read starts.
 pub const FINER_START: [f32; 2] = [0.37, 0.71];
 /// How soft the foot of the opacity is.
@@ -154,8 +171,14 @@ const OVERCAST: f32 = 0.5;
 /// The paper's range of a colour, by which it multiplies.
 const COLOUR_RANGE: f32 = 255.0;
 
-/// The method's share of the uniforms. `params` are in range; `sun_azimuth` is a unit vector (east, south).
-pub fn uniforms(params: &SkyParams, view: &CloudView, sun_azimuth: Vec2) -> OctaveUniforms {
+/// The method's share of the uniforms. `params` are in range; `sun_azimuth` is a unit vector (east, south), `sun_sine` that of
+/// the sun's elevation.
+pub fn uniforms(
+    params: &SkyParams,
+    view: &CloudView,
+    sun_azimuth: Vec2,
+    sun_sine: f32,
+) -> OctaveUniforms {
     let own = params.octaves;
     let side = map::side(own.count);
     let low_tile = TILE[0] + (TILE[1] - TILE[0]) * f64::from(params.height);
@@ -200,6 +223,7 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun_azimuth: Vec2) -> Octa
         relief: mix(RELIEF),
         roughness: ROUGHNESS,
         sun_step,
+        extinction: mix(EXTINCTION) * way_through(sun_sine),
         copies: bytemuck::cast(map::copies(own.count)),
         count: own.count as f32,
         resolution: side as f32,
@@ -215,8 +239,8 @@ fn exponent(sharpness: f32) -> f32 {
     COLOUR_RANGE * (1.0 - sharpness).max(1e-7).log2()
 }
 
-/// Radiance of an overcast sky far away: the low dome where the map has its mean, without relief.
-pub fn overcast(octaves: &OctaveUniforms, clouds: &CloudUniforms) -> Vec3 {
+/// Radiance of an overcast sky far away: the low dome where the map has its mean, without relief, as the paper shades it.
+pub fn paper_overcast(octaves: &OctaveUniforms, clouds: &CloudUniforms) -> Vec3 {
     let thickness = (0.5 - octaves.low.threshold.max(0.0)).max(0.0);
     radiance(
         clouds,
@@ -237,7 +261,7 @@ mod tests {
             seconds,
             place_m,
         };
-        uniforms(params, &view, Vec2::X)
+        uniforms(params, &view, Vec2::X, 1.0)
     }
 
     /// From offsets in the map back to heights of the dome.

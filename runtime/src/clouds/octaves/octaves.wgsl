@@ -20,8 +20,10 @@ fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let hit = dome_intersect(direction);
     let level = cloud_level(hit, narrowing);
     let thin_grey = 0.5 + 0.5 * octaves.edge_grey;
-    // One grey for all domes: from that of thin cloud to that of the low dome where it is opaque.
+    // One grey, or one depth, for all domes: from that of thin cloud to that of the low dome where it is opaque.
     var grey = thin_grey;
+    var depth = OCTAVE_THIN_DEPTH;
+    var body = 0.0;
     var clear = 1.0;
     if octaves.low.threshold < 1.0 {
         let uv = octaves_uv(octaves.low, hit.plane);
@@ -30,6 +32,9 @@ fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
         let finer = octaves_map_at(uv * OCTAVE_FINER + OCTAVE_FINER_START, at_level + OCTAVE_FINER_LEVEL).r - 0.5;
         let alpha = clamp(cloud.g + octaves.roughness * finer * cloud.g * (1.0 - cloud.g), 0.0, 1.0);
         grey = mix(thin_grey, cloud.a + OCTAVE_ROUGH_GREY * finer, alpha);
+        let passed = max(OCTAVE_ROUGH_DEPTH * finer - log2(max(cloud.a, OCTAVE_LEAST_LIGHT)), 0.0);
+        depth = mix(OCTAVE_THIN_DEPTH, passed, alpha);
+        body = alpha;
         clear = 1.0 - alpha;
     }
     if octaves.middle.threshold < 1.0 {
@@ -44,7 +49,12 @@ fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
         let alpha = OCTAVE_HIGH_OPACITY * full * full * (3.0 - 2.0 * full);
         clear *= 1.0 - alpha;
     }
-    let tinted = cloud_tinted(clamp(grey, 0.0, 1.0), cloud_tint(direction));
-    let radiance = cloud_light(tinted, cloud_facing(direction, 1.0 - clear));
-    return vec4f(radiance, (1.0 - clear) * cloud_clearness(direction));
+    let tint = cloud_tint(direction);
+    let alpha = (1.0 - clear) * cloud_clearness(direction);
+    if SCATTERED {
+        let height = mix(OCTAVE_HEIGHTS.x, OCTAVE_HEIGHTS.y, body);
+        return vec4f(cloud_lit(cloud_scattered(direction, depth, height), tint), alpha);
+    }
+    let tinted = cloud_tinted(clamp(grey, 0.0, 1.0), tint);
+    return vec4f(cloud_light(tinted, cloud_facing(direction, 1.0 - clear)), alpha);
 }

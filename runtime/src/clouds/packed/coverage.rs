@@ -4,10 +4,13 @@
 use glam::Vec3;
 use welkin_pack::Image;
 
-use super::{EDGE, PackedUniforms, UPPER_OPACITY, UPPER_THRESHOLD, fold};
+use super::{
+    EDGE, FOOT, FULL, PackedUniforms, UPPER_OPACITY, UPPER_THRESHOLD, paper, place_light, veil,
+};
 use crate::clouds::histogram::Histogram;
 use crate::clouds::shared::{CloudUniforms, behind, inverse_soften, radiance, softened};
 use crate::geometry::math::smoothstep;
+use crate::params::Shading;
 
 /// How the texels of the packed texture are distributed.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,18 +35,15 @@ impl Texels {
     }
 
     /// The share of places with more than this opacity, by the packed method.
-    pub(crate) fn covered(&self, packed: &PackedUniforms, opacity: f32) -> f32 {
-        let smooth = packed.smoothness;
+    pub(crate) fn covered(&self, packed: &PackedUniforms, shading: Shading, opacity: f32) -> f32 {
         let lower = |opacity: f32| {
             if opacity < 0.0 {
                 return 1.0;
             }
-            let alpha =
-                inverse_soften(opacity, EDGE) / (packed.contrast * (1.0 + 2.0 * packed.density));
-            self.detail.mean(|detail| {
-                self.amount
-                    .above(packed.threshold + alpha / (detail + (1.0 - detail) * smooth))
-            })
+            match shading {
+                Shading::Scattered => self.covered_below(packed, opacity),
+                Shading::Paper => paper::covered(packed, [&self.amount, &self.detail], opacity),
+            }
         };
         if packed.upper_layer == 0.0 {
             return lower(opacity);
@@ -54,24 +54,43 @@ impl Texels {
             lower(behind(opacity, clear))
         })
     }
+
+    /// That of the lower layer alone.
+    fn covered_below(&self, packed: &PackedUniforms, opacity: f32) -> f32 {
+        let alpha = inverse_soften(opacity, EDGE);
+        let square = -(1.0 - alpha / FULL).max(f32::MIN_POSITIVE).log2() / packed.opacity_rate;
+        // The positive root of `h^2 / (h + FOOT) = square`.
+        let height = 0.5 * (square + (square * (square + 4.0 * FOOT)).sqrt());
+        self.detail.mean(|detail| {
+            let eaten = packed.erosion * (1.0 - detail);
+            self.amount
+                .above(packed.threshold + (height + eaten) / packed.contrast)
+        })
+    }
 }
 
-/// Mean opacity and radiance of its clouds, over texels of the packed texture that have nothing to do with each other.
+/// Mean opacity and radiance of its clouds, over texels of the packed texture that have nothing to do with each other. Radiance is that
+/// towards all sides.
 pub(crate) fn mean(
     packed: &PackedUniforms,
     clouds: &CloudUniforms,
+    shading: Shading,
     texels: &[[f32; 3]],
 ) -> (f32, Vec3) {
+    if shading == Shading::Paper {
+        return paper::mean(packed, clouds, texels);
+    }
     let (mut opacity, mut light) = (0.0, Vec3::ZERO);
     for &[photo, noise, detail] in texels {
         let amount = photo + noise * (1.0 - photo);
-        let smooth = detail + (1.0 - detail) * packed.smoothness;
-        let alpha = ((amount - packed.threshold) * packed.contrast * smooth).max(0.0);
-        let thick = 2.0 * packed.density * alpha;
-        let grey = fold(amount + detail * (1.0 - amount) + thick).clamp(0.0, 1.0);
-        let lower = softened((alpha + thick).min(1.0), EDGE);
-        let veil = packed.upper_layer * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, noise);
-        light += radiance(clouds, grey) * lower + radiance(clouds, 1.0) * (veil * (1.0 - lower));
+        let height = (amount - packed.threshold) * packed.contrast;
+        let own = (height - packed.erosion * (1.0 - detail)).max(0.0);
+        let halvings = packed.opacity_rate * own * own / (own + FOOT);
+        let alpha = (FULL * (1.0 - (-halvings).exp2())).min(1.0);
+        let lower = softened(alpha, EDGE);
+        let lit = place_light(packed, clouds, own, height);
+        let veil = veil(packed, noise);
+        light += lit * lower + radiance(clouds, 1.0) * (veil * (1.0 - lower));
         opacity += lower + veil * (1.0 - lower);
     }
     (opacity / texels.len() as f32, light / opacity.max(1e-6))

@@ -1,33 +1,41 @@
 //! The packed method: the cloud shader of Roden and Parberry (ACE 2005, section 3.1) on the packed texture.
 //!
 //! # Theory
-//! Photo and noise are blended, cover cuts from below and stretches the rest (lines 14-17), detail
-//! brightens and, where clouds are not dense, roughens (18-19), density darkens thick parts by folding
-//! brightness at 1 (20-24); tint and light are those of [`crate::clouds::shared`] (26-28).
+//! Photo and noise are blended, cover cuts from below and stretches the rest (lines 14-17): here that is the height of a cloud. Detail
+//! eats its edges. Four heights towards the sun ([`map`]) and the slope of the detail tell how much cloud the light has passed, and
+//! [`crate::clouds::shared`] what of it is scattered to the eye; density makes clouds thicker, smoother and darker. The paper's own shading,
+//! lines 18 to 28, is in [`paper`].
 //! Height scales the coordinates, speed moves them; photo and noise move in slightly different
 //! directions at slightly different speeds, so that shapes change (section 3.2).
 //!
 //! # Changes versus the paper
+//! - Clouds have a lit and a dark side: the paper's are grey by their amount. [`crate::params::Shading::Paper`] is its form.
+//! - Detail is taken from the height instead of multiplying the opacity (line 19): it frays edges and leaves the middle whole.
 //! - Coordinates come from the hit with the cloud dome, not from a mesh ([`crate::geometry::dome`]). Noise is
 //!   turned and scaled against the photo by irrational amounts, so that their sum does not repeat.
 //! - The level of detail is computed: no derivatives, so every read may stand in a branch.
 //! - Opacity is softened at its foot, `a^2 (1 + e) / (a + e)`: the paper's rises with a kink that shows
 //!   each texel of a cloud's edge.
-//! - The fold of brightness at 1 is rounded ([`FOLD`]): its kink draws a bright line into dense clouds.
+//! - The fold of brightness at 1 is rounded ([`paper::FOLD`]): its kink draws a bright line into dense clouds.
 //! - The paper's cover 1 leaves holes where both channels are 0. Above 0.8 the cut of line 15 goes on below 0,
 //!   and detail no longer pierces: an overcast sky has no holes.
 //! - The thin upper layer (figure 5) is laid behind the lower one instead of added to it.
 //!
 //! # Practice
-//! Three trilinear reads; one bilinear with sunset above 0, one more trilinear with the upper layer on.
+//! Four trilinear reads, three with the paper's shading; one bilinear with sunset above 0, one more trilinear with the upper layer on.
 
 pub mod coverage;
+pub mod map;
+pub mod paper;
 
 use glam::{DVec2, Vec2, Vec3};
 
 use crate::clouds::shared::{
-    CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, offset, overcast_weight, radiance,
+    CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, lit, offset, overcast_weight, scattered,
+    way_through,
 };
+use crate::device::map::LEAST_SIDE;
+use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
 use crate::params::SkyParams;
@@ -36,12 +44,26 @@ use crate::params::SkyParams;
 pub const PART: Part = Part {
     constants: &[
         ("PACKED_EDGE", Value::F32(EDGE)),
-        ("PACKED_FOLD", Value::F32(FOLD)),
+        ("PACKED_FULL", Value::F32(FULL)),
+        ("PACKED_FOOT", Value::F32(FOOT)),
+        ("PACKED_OWN", Value::F32(OWN)),
+        ("PACKED_SHARES", Value::Vec3(SHARES)),
+        ("PACKED_DEPTHS", Value::Vec3(DEPTHS)),
+        ("PACKED_RELIEF", Value::F32(RELIEF)),
+        ("PACKED_RELIEF_FULL", Value::F32(RELIEF_FULL)),
+    ],
+    structs: &[PackedUniforms::WGSL],
+    wgsl: include_str!("packed.wgsl"),
+};
+
+/// Its thin upper layer, which the dome behind sprites has too.
+pub const VEIL: Part = Part {
+    constants: &[
         ("UPPER_OPACITY", Value::F32(UPPER_OPACITY)),
         ("UPPER_THRESHOLD", Value::F32(UPPER_THRESHOLD)),
     ],
     structs: &[PackedUniforms::WGSL],
-    wgsl: include_str!("packed.wgsl"),
+    wgsl: include_str!("veil.wgsl"),
 };
 
 uniforms! {
@@ -73,8 +95,8 @@ uniforms! {
         upper_lod_bias: f32,
         /// How little detail pierces the clouds, 0..1 (line 19).
         smoothness: f32,
-        /// Nothing.
-        _pad: f32,
+        /// How much of a height detail eats where it is 0.
+        erosion: f32,
         /// The amount from which there is cloud (line 15).
         threshold: f32,
         /// 1 / cover, as clamped in line 16.
@@ -83,13 +105,51 @@ uniforms! {
         density: f32,
         /// Amount of the upper layer.
         upper_layer: f32,
+        /// From a place of the photo to the first one towards the sun, in tiles.
+        photo_step: Vec2,
+        /// The way towards the sun over which the slope of the detail is taken, in tiles.
+        detail_step: Vec2,
+        /// Levels of the photo at the places towards the sun.
+        march_levels: Vec3,
+        /// Halvings of the light by a height of 1.
+        extinction: f32,
+        /// Halvings of the light behind by a height of 1.
+        opacity_rate: f32,
+        /// Texels a side of the map.
+        map_side: f32,
+        /// Level of detail of the map.
+        map_lod_bias: f32,
+        /// Height that an overcast has everywhere and that does not darken.
+        shut: f32,
     }
 }
 
 /// How soft the foot of the opacity is: below it the opacity rises as a square, above it in a line.
 pub const EDGE: f32 = 0.12;
-/// How far from 1 the fold of brightness (lines 22-23) is rounded.
-pub const FOLD: f32 = 0.15;
+/// Opacity without end is brought to 1 by this: thick clouds let nothing through.
+pub const FULL: f32 = 1.1;
+/// The height at which opacity goes over from the square of heights to a line: edges are soft.
+pub const FOOT: f32 = 0.15;
+/// What the light passes of a place's own height, and of the heights towards the sun over the ray. Chosen by eye, as what follows.
+pub const OWN: f32 = 0.5;
+pub const SHARES: Vec3 = Vec3::new(0.55, 0.8, 1.2);
+/// How high the ray has risen at the places towards the sun, as heights of clouds: one of 1 is 0.45 of the layer's height thick.
+pub const DEPTHS: Vec3 = Vec3::new(0.088, 0.22, 0.484);
+/// What a slope of the detail adds, and the height of a cloud, as 1 over it, from which all of it counts.
+pub const RELIEF: f32 = 0.36;
+pub const RELIEF_FULL: f32 = 4.0;
+/// Share of the height that an overcast has everywhere which does not darken.
+const SHUT: f32 = 0.7;
+/// The way over which that slope is taken, against the way to the first place.
+const RELIEF_WAY: f64 = 0.75;
+/// How much detail eats of a height: of thin clouds, and what dense and overcast ones keep of it.
+const EROSION: f32 = 0.55;
+const ERODED_DENSE: f32 = 0.4;
+const ERODED_OVERCAST: f32 = 0.3;
+/// Halvings of the light behind, and of the light of the sun, by a height of 1 at density 0. Density 1 makes three times the first and
+/// twice the second.
+const OPACITY_RATE: f32 = 8.0;
+const EXTINCTION: f32 = 3.8;
 /// Opacity of the upper layer where its noise is 1.
 pub const UPPER_OPACITY: f32 = 0.75;
 /// Noise below this gives no upper cloud.
@@ -120,8 +180,8 @@ const PHOTO_START: DVec2 = DVec2::new(0.37, 0.21);
 const NOISE_START: DVec2 = DVec2::new(0.13, 0.58);
 const UPPER_START: DVec2 = DVec2::new(0.71, 0.44);
 
-/// The method's share of the uniforms. `params` are in range.
-pub fn uniforms(params: &SkyParams, view: &CloudView) -> PackedUniforms {
+/// The method's share of the uniforms. `params` are in range; `sun` is the unit direction towards it.
+pub fn uniforms(params: &SkyParams, view: &CloudView, sun: Vec3) -> PackedUniforms {
     let scale = f64::from(SCALE[0] + (SCALE[1] - SCALE[0]) * params.height);
     let way = MAX_WIND * f64::from(params.speed) * view.seconds;
     let (sin, cos) = NOISE_TURN.sin_cos();
@@ -136,6 +196,10 @@ pub fn uniforms(params: &SkyParams, view: &CloudView) -> PackedUniforms {
     let upper_place = view.place(UPPER_HEIGHT_M) - UPPER_WIND * way;
     let level = |scale: f64| view.level(scale * f64::from(view.texels));
     let overcast_weight = overcast_weight(params.cover);
+    let step = map::step(sun);
+    let photo_step = step * scale;
+    let map_side = view.texels.clamp(LEAST_SIDE, map::MOST_SIDE);
+    let kept = |least: f32, weight: f32| 1.0 - (1.0 - least) * weight;
     PackedUniforms {
         photo_offset: offset(PHOTO_START + (place - PHOTO_WIND * way) * scale),
         photo_scale: (scale * near) as f32,
@@ -154,26 +218,50 @@ pub fn uniforms(params: &SkyParams, view: &CloudView) -> PackedUniforms {
         contrast: 1.0 / params.cover.max(0.05),
         density: params.density,
         upper_layer: params.upper_layer,
-        ..Default::default()
+        erosion: EROSION
+            * kept(ERODED_DENSE, params.density)
+            * kept(ERODED_OVERCAST, overcast_weight),
+        photo_step: photo_step.as_vec2(),
+        detail_step: (step * (RELIEF_WAY * detail_scale)).as_vec2(),
+        march_levels: map::levels(photo_step.length() * f64::from(view.texels)),
+        extinction: EXTINCTION * (1.0 + params.density) * way_through(sun.y),
+        opacity_rate: OPACITY_RATE * (1.0 + 2.0 * params.density),
+        map_side: map_side as f32,
+        map_lod_bias: view.level(scale * near * f64::from(map_side)),
+        shut: SHUT * OVERCAST * overcast_weight / params.cover.max(0.05),
     }
 }
 
-/// Radiance of an overcast sky far away, where single clouds cannot be told apart.
-///
-/// It is the light of a place where photo, noise and detail have their means, by the same lines as the
-/// shader's; line 19 is left out, since detail does not pierce an overcast sky.
-pub fn overcast(packed: &PackedUniforms, clouds: &CloudUniforms, means: [f32; 3]) -> Vec3 {
+/// Radiance of an overcast sky far away, where single clouds cannot be told apart: the light of a place where photo, noise and detail have
+/// their means, and all around it.
+pub(crate) fn overcast(packed: &PackedUniforms, clouds: &CloudUniforms, means: [f32; 3]) -> Vec3 {
     let [photo, noise, detail] = means;
     let amount = photo + noise * (1.0 - photo);
-    let alpha = ((amount - packed.threshold) * packed.contrast).max(0.0);
-    let grey = fold(amount + detail * (1.0 - amount) + packed.density * alpha * 2.0);
-    radiance(clouds, grey.clamp(0.0, 1.0))
+    let height = (amount - packed.threshold) * packed.contrast;
+    let own = (height - packed.erosion * (1.0 - detail)).max(0.0);
+    place_light(packed, clouds, own, height)
 }
 
-/// `packed_fold` of the shader: lines 22-23 with the kink rounded off.
-fn fold(grey: f32) -> f32 {
-    let beyond = grey - 1.0;
-    grey - 0.75 * (beyond + (beyond * beyond + FOLD * FOLD).sqrt())
+/// Radiance towards all sides of a place of this height after detail, where clouds have that height before it all the way to the sun.
+fn place_light(packed: &PackedUniforms, clouds: &CloudUniforms, own: f32, height: f32) -> Vec3 {
+    let passed = optical_path(packed, own, height);
+    let thickness = (own - packed.shut).max(0.0);
+    lit(
+        clouds,
+        scattered(clouds, None, packed.extinction * passed, thickness),
+    )
+}
+
+/// `passed` of the shader for the same.
+fn optical_path(packed: &PackedUniforms, own: f32, height: f32) -> f32 {
+    let over = packed.shut + 0.5 * packed.erosion;
+    let above = (height - DEPTHS - over).max(Vec3::ZERO);
+    OWN * (own - packed.shut).max(0.0) + SHARES.dot(above)
+}
+
+/// Opacity of the upper layer where the noise is this.
+fn veil(packed: &PackedUniforms, noise: f32) -> f32 {
+    packed.upper_layer * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, noise)
 }
 
 #[cfg(test)]
@@ -193,7 +281,7 @@ mod tests {
             seconds,
             place_m,
         };
-        uniforms(&params, &view)
+        uniforms(&params, &view, Vec3::Y)
     }
 
     #[test]

@@ -1,54 +1,9 @@
-// Clouds of the packed texture: lines 14 to 28 of the paper's shader. Theory, changes, CPU part: mod.rs.
+// Clouds of the packed texture. Theory, changes, CPU part: mod.rs.
 
-fn packed_sample(uv: vec2f, level: f32) -> vec4f {
-    return textureSampleLevel(clouds_texture, repeat_sampler, uv, level);
-}
-
-// Lines 22-23, `1 - (r - 1) / 2` beyond 1, with the kink rounded off.
-fn packed_fold(grey: f32) -> f32 {
-    let beyond = grey - 1.0;
-    return grey - 0.75 * (beyond + sqrt(beyond * beyond + PACKED_FOLD * PACKED_FOLD));
-}
-
-// Opacity of the thin upper layer.
-fn packed_veil(hit: DomeHit, level: f32) -> f32 {
-    let packed = uniforms.packed;
-    let wisp = packed_sample(hit.plane * packed.upper_scale + packed.upper_offset, level + packed.upper_lod_bias).g;
-    return packed.upper_layer * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, wisp);
-}
-
-// Its radiance: white under the sunset tint.
-fn packed_white(tint: f32, direction: vec3f) -> vec3f {
-    return cloud_light(mix(vec3f(1.0), uniforms.clouds.tint, tint), cloud_facing(direction, 0.0));
-}
-
-// Radiance and opacity of the clouds along a unit direction above the horizon.
-fn packed_layer(direction: vec3f, narrowing: f32) -> vec4f {
-    let packed = uniforms.packed;
-    let hit = dome_intersect(direction);
-    let level = cloud_level(hit, narrowing);
-
-    let turned = vec2f(
-        hit.plane.x * packed.noise_rotation.x - hit.plane.y * packed.noise_rotation.y,
-        hit.plane.x * packed.noise_rotation.y + hit.plane.y * packed.noise_rotation.x,
-    );
-    let photo = packed_sample(hit.plane * packed.photo_scale + packed.photo_offset, level + packed.photo_lod_bias).r;
-    let noise = packed_sample(turned + packed.noise_offset, level + packed.noise_lod_bias).g;
-    let detail = packed_sample(hit.plane * packed.detail_scale + packed.detail_offset, level + packed.detail_lod_bias).b;
-    let tint = cloud_tint(direction);
-
-    let amount = photo + noise * (1.0 - photo);                      // line 14
-    var alpha = (amount - packed.threshold) * packed.contrast;       // lines 15-17
-    var grey = amount + detail * (1.0 - amount);                     // line 18
-    alpha *= mix(detail, 1.0, packed.smoothness);                    // line 19
-    let thick = packed.density * max(alpha, 0.0) * 2.0;              // lines 20-21
-    grey += thick;
-    alpha = clamp(alpha + thick, 0.0, 1.0);                          // line 25
-    grey = clamp(packed_fold(grey), 0.0, 1.0);                        // lines 22-25
-    let tinted = mix(vec3f(grey), uniforms.clouds.tint, tint);   // lines 26-27
-    var radiance = cloud_light(tinted, cloud_facing(direction, alpha)); // line 28
-
-    alpha = cloud_soften(alpha, PACKED_EDGE);
+// The lower layer, and the upper one behind it.
+fn packed_over_veil(hit: DomeHit, level: f32, direction: vec3f, tint: f32, lower: vec4f) -> vec4f {
+    var radiance = lower.rgb;
+    var alpha = lower.a;
     if UPPER_LAYER {
         let veil = packed_veil(hit, level);
         let over = alpha + veil * (1.0 - alpha);
@@ -56,4 +11,48 @@ fn packed_layer(direction: vec3f, narrowing: f32) -> vec4f {
         alpha = over;
     }
     return vec4f(radiance, alpha * cloud_clearness(direction));
+}
+
+fn packed_noise(plane: vec2f, level: f32) -> f32 {
+    let packed = uniforms.packed;
+    let turned = vec2f(
+        plane.x * packed.noise_rotation.x - plane.y * packed.noise_rotation.y,
+        plane.x * packed.noise_rotation.y + plane.y * packed.noise_rotation.x,
+    );
+    return packed_sample(turned + packed.noise_offset, level + packed.noise_lod_bias).g;
+}
+
+// Radiance and opacity of the clouds along a unit direction above the horizon.
+fn packed_layer(direction: vec3f, narrowing: f32) -> vec4f {
+    if SCATTERED {
+        return packed_scattered_layer(direction, narrowing);
+    }
+    return packed_paper_layer(direction, narrowing);
+}
+
+fn packed_scattered_layer(direction: vec3f, narrowing: f32) -> vec4f {
+    let packed = uniforms.packed;
+    let hit = dome_intersect(direction);
+    let level = cloud_level(hit, narrowing);
+    let photo_uv = hit.plane * packed.photo_scale + packed.photo_offset;
+    let photos = textureSampleLevel(map_texture, repeat_sampler, photo_uv, level + packed.map_lod_bias);
+    let noise = packed_noise(hit.plane, level);
+    let detail_uv = hit.plane * packed.detail_scale + packed.detail_offset;
+    let detail_level = level + packed.detail_lod_bias;
+    let detail = packed_sample(detail_uv, detail_level).b;
+    let detail_beyond = packed_sample(detail_uv + packed.detail_step, detail_level).b;
+    let tint = cloud_tint(direction);
+
+    let amounts = photos + noise * (1.0 - photos);                    // line 14
+    let heights = (amounts - packed.threshold) * packed.contrast;     // lines 15-17
+    let height = max(heights.w - packed.erosion * (1.0 - detail), 0.0);
+    let above = max(heights.xyz - PACKED_DEPTHS - (packed.shut + 0.5 * packed.erosion), vec3f(0.0));
+    let relief = PACKED_RELIEF * (detail_beyond - detail) * min(PACKED_RELIEF_FULL * height, 1.0);
+    let thickness = max(height - packed.shut, 0.0);
+    let passed = max(PACKED_OWN * thickness + dot(PACKED_SHARES, above) + relief, 0.0);
+    let light = cloud_scattered(direction, packed.extinction * passed, thickness);
+    let radiance = cloud_lit(light, tint);
+    let halvings = packed.opacity_rate * height * height / (height + PACKED_FOOT);
+    let alpha = min(PACKED_FULL * (1.0 - exp2(-halvings)), 1.0);
+    return packed_over_veil(hit, level, direction, tint, vec4f(radiance, cloud_soften(alpha, PACKED_EDGE)));
 }

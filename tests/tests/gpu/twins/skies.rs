@@ -3,7 +3,8 @@
 use glam::Vec3;
 use welkin_pack::LayerKind;
 use welkin_runtime::params::{
-    FbmParams, LitLayer, LitParams, OctaveParams, PerezParams, PerezShape, SkyModel, Tonemap,
+    FbmParams, LitLayer, LitParams, OctaveParams, PerezParams, PerezShape, Shading, SkyModel,
+    Tonemap,
 };
 use welkin_runtime::{Camera, Method, SkyParams};
 
@@ -58,11 +59,18 @@ fn shared_skies(method: Method) -> Vec<Case> {
         speed: 1.0,
         ..at(0.5, 0.7)
     };
+    let paper = |params: SkyParams| SkyParams {
+        shading: Shading::Paper,
+        ..params
+    };
     let mut walked = case("walked", at(0.45, 0.5), 60.0, 50.0, 30.0);
     walked.camera.position_m = Vec3::new(2750.0, 120.0, -1300.0);
     vec![
         case("noon", at(0.5, 0.6), 180.0, 40.0, 12.0),
         case("sunset", sunset, 270.0, 12.0, 100.0),
+        case("paper", paper(at(0.4, 0.6)), 180.0, 40.0, 12.0),
+        case("paper_sunset", paper(sunset), 270.0, 12.0, 100.0),
+        case("paper_overcast", paper(overcast), 20.0, 30.0, 500.0),
         case("twilight", at(0.77, 0.5), 270.0, 10.0, 3.0),
         case("night", at(0.0, 0.3), 180.0, 45.0, 21.5),
         case("overcast", overcast, 20.0, 30.0, 500.0),

@@ -127,8 +127,6 @@ fn only_the_row_of_a_moving_sun_moves_it_and_far_enough_for_octaves_to_be_packed
         // Of an hour-long way the sun takes the same share, wherever it stands at noon.
         let [a, b] = times.map(|time| welkin_pack::mapping::sun_direction(time, 1.0));
         let cosine: f32 = (0..3).map(|i| a[i] * b[i]).sum();
-        assert!(
-            cosine.acos() > 2.0 * welkin_runtime::internals::clouds::fbm::pack::CELL_RAD as f32
-        );
+        assert!(cosine.acos() > 2.0 * welkin_runtime::internals::clouds::march::CELL_RAD as f32);
     }
 }
