@@ -66,8 +66,8 @@ sky: gpu-tools ## Bake the default pack, check it, and draw pictures of every me
 	$(VIEW) render $(PACK) -o out/rain.png $(FRAME) --method lit --time 0.42 --cover 1 --density 0.6 --azimuth 40 --elevation 15 --rain 0.8
 	$(VIEW) render $(PACK) -o out/lightning.png $(FRAME) --method lit --time 0.8 --cover 1 --density 0.8 --azimuth 40 --elevation 22 --at 10.02 --lightning 2,-2.5,10
 	$(VIEW) render $(PACK) -o out/panorama.png --equirect 1024 --method lit --time 0.742 --sunset 1 --cover 0.62
-	$(VIEW) render $(PACK) -o out/figure2.png $(FRAME) --cover 0.69 --height 1.0 --density 0 --sunset 0.72 --speed 0.1 --time 0.35 --azimuth 130 --elevation 28 --flare 0
-	$(VIEW) render $(PACK) -o out/figure4.png $(FRAME) --cover 0.57 --height 0.52 --density 0.84 --sunset 0.43 --speed 0 --time 0.72 --azimuth 250 --elevation 26 --flare 0
+	$(VIEW) render $(PACK) -o out/figure2.png $(FRAME) --cover 0.69 --height 1.0 --density 0 --sunset 0.72 --speed 0.1 --time 0.35 --azimuth 130 --elevation 28 --flare 0 --shading paper
+	$(VIEW) render $(PACK) -o out/figure4.png $(FRAME) --cover 0.57 --height 0.52 --density 0.84 --sunset 0.43 --speed 0 --time 0.72 --azimuth 250 --elevation 26 --flare 0 --shading paper
 	$(VIEW) render $(PACK) -o out/night.png $(FRAME) --moon 0 --time 0 --cover 0.35 --azimuth 72 --elevation 42 --fov 75
 	$(VIEW) render $(PACK) -o out/overcast.png $(FRAME) --time 0.45 --cover 1 --density 0.6 --azimuth 30 --elevation 26
 	$(VIEW) render $(PACK) -o out/flare.png $(FRAME) --flare 1 --time 0.64 --cover 0.55 --azimuth 208 --elevation 26

@@ -222,7 +222,9 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun: Vec3) -> PackedUnifor
             * kept(ERODED_DENSE, params.density)
             * kept(ERODED_OVERCAST, overcast_weight),
         photo_step: photo_step.as_vec2(),
-        detail_step: (step * (RELIEF_WAY * detail_scale)).as_vec2(),
+        // Light comes to the base of an overcast from all sides: bumps hardly show.
+        detail_step: (step * (RELIEF_WAY * detail_scale)).as_vec2()
+            * kept(ERODED_OVERCAST, overcast_weight),
         march_levels: map::levels(photo_step.length() * f64::from(view.texels)),
         extinction: EXTINCTION * (1.0 + params.density) * way_through(sun.y),
         opacity_rate: OPACITY_RATE * (1.0 + 2.0 * params.density),
