@@ -9,13 +9,12 @@ mod mukhina;
 mod report;
 pub mod scene;
 
-use std::io::{ErrorKind, Write};
-
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use welkin_pack::Pack;
 use welkin_viewer::gpu::{Gpu, GpuError};
 
 use crate::cli::{BenchArgs, Protocol};
+use crate::told;
 use measure::{WARM_UP_FRAMES, clock, measure};
 use report::Report;
 use scene::{scenes, scenes_of_sprites};
@@ -31,17 +30,7 @@ pub fn run(args: &BenchArgs) -> Result<()> {
             mukhina::Report::table,
         ),
     }?;
-    let mut stdout = std::io::stdout().lock();
-    match stdout
-        .write_all(text.as_bytes())
-        .and_then(|()| stdout.flush())
-    {
-        // Whoever read the pipe has seen enough.
-        Err(e) if e.kind() == ErrorKind::BrokenPipe => Ok(()),
-        written => written.map_err(|e| {
-            anyhow!("standard output: cannot be written: {e}; make room where it goes")
-        }),
-    }
+    told::print(&text)
 }
 
 /// A report as the options want it.

@@ -6,10 +6,11 @@ mod page;
 mod scene;
 
 use std::fs;
-use std::io::Write;
+use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
-use welkin_pack::whole::write_file;
+use anyhow::{Context, Result, ensure};
+use welkin_pack::place::verify_apart;
+use welkin_pack::whole::{sweep, write_files};
 use welkin_pack::{Pack, interrupt};
 use welkin_runtime::{Method, Oktas};
 use welkin_viewer::frame::{Frame, Target};
@@ -19,8 +20,9 @@ use welkin_viewer::save::{Format, encode};
 use welkin_viewer::structure::{fine_over_coarse, repetition};
 
 use crate::cli::LookArgs;
+use crate::told::{print, tell_leftovers};
 use page::Picture;
-use scene::{MEASURED, OKTAS, SHOWN};
+use scene::{MEASURED, OKTAS, SHOWN, Scene};
 
 /// Fine over coarse structure that clouds may have: photographs have 0.12 to 0.25.
 const STRUCTURE: [f32; 2] = [0.10, 0.28];
@@ -46,7 +48,7 @@ impl Found {
                 if !(STRUCTURE[0]..=STRUCTURE[1]).contains(&found) {
                     let [least, most] = STRUCTURE;
                     problems.push(format!(
-                        "{name}, {} at {oktas} oktas: structure {found:.2}, expected {least} to {most}",
+                        "{name}, {} at {oktas} oktas: structure {found:.3}, expected {least} to {most}",
                         scene.name
                     ));
                 }
@@ -54,7 +56,7 @@ impl Found {
         }
         if self.repetition > MOST_REPETITION {
             problems.push(format!(
-                "{name}: the zenith looks {:.2} like itself moved away, expected at most {MOST_REPETITION}",
+                "{name}: the zenith looks {:.3} like itself moved away, expected at most {MOST_REPETITION}",
                 self.repetition
             ));
         }
@@ -79,22 +81,22 @@ impl Found {
 }
 
 pub fn run(args: &LookArgs) -> Result<()> {
+    if let Some(folder) = &args.output {
+        open(folder, args)?;
+    }
     let pack = Pack::open(&args.pack)?;
     let gpu = Gpu::open()?;
     let oktas = Oktas::new(&pack)?;
-    if let Some(folder) = &args.output {
-        fs::create_dir_all(folder)
-            .with_context(|| format!("{}: cannot be made", folder.display()))?;
-    }
-    let mut stdout = std::io::stdout().lock();
+    interrupt::listen()?;
     let [a, b, c] = OKTAS;
-    writeln!(stdout, "method   hour    {a} oktas  {b}     {c}").ok();
-    let (mut problems, mut pictures) = (Vec::new(), Vec::new());
+    print(&format!("method   hour    {a} oktas  {b}     {c}\n"))?;
+    let (mut problems, mut pictures, mut files) = (Vec::new(), Vec::new(), Vec::new());
     for method in args.methods() {
         let mut stage = Stage::new(&gpu, &pack, Target::Srgb8)?;
-        let mut draw = |view: &View| {
+        let mut draw = |view: &View| -> Result<Frame> {
+            ensure!(!interrupt::requested(), "interrupted: nothing is written");
             stage.reset_history();
-            stage.draw(view)
+            Ok(stage.draw(view)?)
         };
         let mut found = Found {
             method,
@@ -106,48 +108,74 @@ pub fn run(args: &LookArgs) -> Result<()> {
                 let mut view = scene.view(method);
                 view.params.cover = oktas.cover(&view.params, *wanted);
                 *found = fine_over_coarse(&draw(&view)?);
-                if interrupt::requested() {
-                    bail!("interrupted");
-                }
             }
         }
-        write!(stdout, "{}", found.table()).ok();
+        print(&found.table())?;
         problems.extend(found.problems());
         for scene in args.output.iter().flat_map(|_| &SHOWN) {
             let frame = draw(&scene.view(method))?;
-            pictures.push(picture(args, method, scene.name, &frame)?);
+            let file = picture_name(method, scene);
+            files.push((file.clone(), encode(&file, Format::Png, &frame)?));
+            pictures.push(Picture {
+                file,
+                method,
+                scene: scene.name,
+                structure: fine_over_coarse(&frame),
+            });
         }
     }
     if let Some(folder) = &args.output {
-        let page = page::html(&pictures, &problems);
-        write_file(
-            &folder.join("index.html"),
-            page.as_bytes(),
-            &interrupt::requested,
-        )?;
-    }
-    if problems.is_empty() {
-        return Ok(());
+        files.push((PAGE.into(), page::html(&pictures, &problems).into_bytes()));
+        write(folder, &files)?;
     }
     for problem in &problems {
-        writeln!(stdout, "beyond the bounds: {problem}").ok();
+        print(&format!("beyond the bounds: {problem}\n"))?;
     }
-    bail!(
-        "{} of the numbers are not those of clouds; the table tells which",
+    ensure!(
+        problems.is_empty(),
+        "{} of the numbers are not those of clouds; they are listed under the table",
         problems.len()
-    )
+    );
+    Ok(())
 }
 
-/// Saves a picture of the page.
-fn picture(args: &LookArgs, method: Method, scene: &'static str, frame: &Frame) -> Result<Picture> {
-    let file = format!("{}-{scene}.png", method.name());
-    let folder = args.output.as_deref().unwrap_or(&args.pack);
-    let bytes = encode(&file, Format::Png, frame)?;
-    write_file(&folder.join(&file), &bytes, &interrupt::requested)?;
-    Ok(Picture {
-        file,
-        method,
-        scene,
-        structure: fine_over_coarse(frame),
-    })
+/// The name of the page.
+const PAGE: &str = "index.html";
+
+fn picture_name(method: Method, scene: &Scene) -> String {
+    format!("{}-{}.png", method.name(), scene.name)
+}
+
+/// Makes the folder of the page, and refuses what could not be written into it.
+fn open(folder: &Path, args: &LookArgs) -> Result<()> {
+    verify_apart(&[&args.pack], &[folder])?;
+    fs::create_dir_all(folder).with_context(|| {
+        format!(
+            "{}: cannot be made; choose a place that can be written",
+            folder.display()
+        )
+    })?;
+    tell_leftovers(&sweep(folder));
+    let pictures = args.methods().into_iter();
+    let pictures =
+        pictures.flat_map(|method| SHOWN.iter().map(move |scene| picture_name(method, scene)));
+    for name in pictures.chain([PAGE.to_string()]) {
+        let file = folder.join(name);
+        ensure!(
+            !file.is_dir(),
+            "{}: is a folder; move it, or choose another place",
+            file.display()
+        );
+    }
+    Ok(())
+}
+
+/// All files or none.
+fn write(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<()> {
+    let paths: Vec<PathBuf> = files.iter().map(|(name, _)| folder.join(name)).collect();
+    let pairs = paths.iter().zip(files);
+    let pairs: Vec<(&Path, &[u8])> = pairs
+        .map(|(path, (_, bytes))| (path.as_path(), bytes.as_slice()))
+        .collect();
+    Ok(write_files(&pairs, &interrupt::requested)?)
 }

@@ -1,8 +1,9 @@
-//! What a person is told: errors as one line, and what earlier runs have left.
+//! What a person is told: errors as one line, what earlier runs have left, and what goes to standard output.
 
 use std::borrow::Cow;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 
+use anyhow::anyhow;
 use welkin_pack::shown;
 use welkin_pack::whole::Leftover;
 
@@ -28,11 +29,24 @@ pub fn tell_leftovers(leftovers: &[Leftover]) {
     }
 }
 
+/// Writes text to standard output, at once.
+pub fn print(text: &str) -> anyhow::Result<()> {
+    let mut stdout = std::io::stdout().lock();
+    let written = stdout.write_all(text.as_bytes());
+    match written.and_then(|()| stdout.flush()) {
+        // Whoever read the pipe has seen enough.
+        Err(e) if e.kind() == ErrorKind::BrokenPipe => Ok(()),
+        written => written.map_err(|e| {
+            anyhow!("standard output: cannot be written: {e}; make room where it goes")
+        }),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::io;
 
-    use anyhow::{Context, anyhow};
+    use anyhow::Context;
     use welkin_baker::BakeError;
     use welkin_pack::Pack;
 

@@ -48,10 +48,11 @@ fn what_is_legal_at_an_end_of_its_range_is_sound() {
         "stars.count = 1",
         "clouds.photo.mean = 0.05",
         "clouds.photo.mean = 0.4",
-        "clouds.photo.mean = 0.59",
+        "clouds.photo.mean = 0.61",
+        "clouds.photo.mean = 0.59\nclouds.noise.mean = 0.26",
         "clouds.noise.mean = 0.05",
-        "clouds.noise.mean = 0.5",
-        "clouds.noise.mean = 0.64",
+        "clouds.noise.mean = 0.52",
+        "clouds.photo.mean = 0.16\nclouds.noise.mean = 0.64",
     ] {
         if let Err(error) = verify(&pack(recipe)) {
             panic!("{recipe}: {error}");

@@ -209,15 +209,16 @@ fn a_saved_recipe_is_baked_and_shown_and_a_broken_one_is_told() {
     });
 }
 
-/// The screen once it does not change any more.
+/// The screen once it does not change any more: a pack that is written is shown when its shaders are compiled.
 fn settled(desktop: &Desktop) -> Screen {
-    let mut last = desktop.screen();
+    const AT_REST: u32 = 4;
+    let (mut last, mut same) = (desktop.screen(), 0);
     eventually("the screen is at rest", || {
         std::thread::sleep(std::time::Duration::from_millis(700));
         let now = desktop.screen();
-        let is_at_rest = !now.differs(&last);
+        same = if now.differs(&last) { 0 } else { same + 1 };
         last = now;
-        is_at_rest
+        same == AT_REST
     });
     last
 }
