@@ -65,11 +65,7 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
             let shares = clouds::scattered(inputs.uniforms, direction, depth, height);
             clouds::lit(uniforms, shares, tint)
         }
-        Shading::Paper => light(
-            uniforms,
-            tinted(uniforms, grey.clamp(0.0, 1.0), tint),
-            clouds::facing(inputs.uniforms, direction, 1.0 - clear),
-        ),
+        Shading::Paper => light(uniforms, tinted(uniforms, grey.clamp(0.0, 1.0), tint), 1.0),
     };
     (
         radiance,

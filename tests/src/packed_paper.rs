@@ -65,8 +65,7 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
         tint,
     };
     let (display, alpha) = shade(inputs.uniforms, samples);
-    let facing = clouds::facing(inputs.uniforms, direction, alpha);
-    let lower = (light(clouds, display, facing), soften(alpha, EDGE));
+    let lower = (light(clouds, display, 1.0), soften(alpha, EDGE));
     over_veil(inputs, direction, level, tint, lower, inputs.nudges[3])
 }
 

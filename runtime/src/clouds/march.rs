@@ -32,3 +32,12 @@ impl SunCell {
         }
     }
 }
+
+/// The direction of a sun that stands at these angles.
+#[cfg(test)]
+pub(crate) fn sun(azimuth_deg: f32, elevation_deg: f32) -> Vec3 {
+    Vec3::from(welkin_pack::mapping::direction_from_angles(
+        azimuth_deg.to_radians(),
+        elevation_deg.to_radians(),
+    ))
+}

@@ -66,12 +66,12 @@ pub(crate) trait CloudMethod: Sync {
         params: &SkyParams,
         uniforms: &Uniforms,
         direction: Vec3,
-        opacity: f32,
+        _opacity: f32,
     ) -> f32 {
         let cosine = direction.dot(uniforms.sky.sun_direction);
         match params.shading {
             Shading::Scattered => shared::scattered_facing(&uniforms.clouds, cosine),
-            Shading::Paper => shared::facing(&uniforms.clouds, cosine, opacity),
+            Shading::Paper => 1.0,
         }
     }
 

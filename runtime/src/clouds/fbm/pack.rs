@@ -115,14 +115,7 @@ impl Pass {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::clouds::march::CELL_RAD;
-
-    fn sun(azimuth_deg: f32, elevation_deg: f32) -> Vec3 {
-        Vec3::from(welkin_pack::mapping::direction_from_angles(
-            azimuth_deg.to_radians(),
-            elevation_deg.to_radians(),
-        ))
-    }
+    use crate::clouds::march::{CELL_RAD, sun};
 
     #[test]
     fn the_packs_own_channels_are_for_a_sun_in_the_east_at_45_degrees() {

@@ -56,5 +56,5 @@ fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
         return vec4f(cloud_lit(cloud_scattered(direction, depth, height), tint), alpha);
     }
     let tinted = cloud_tinted(clamp(grey, 0.0, 1.0), tint);
-    return vec4f(cloud_light(tinted, cloud_facing(direction, 1.0 - clear)), alpha);
+    return vec4f(cloud_light(tinted, 1.0), alpha);
 }

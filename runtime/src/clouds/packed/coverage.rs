@@ -4,11 +4,9 @@
 use glam::Vec3;
 use welkin_pack::Image;
 
-use super::{
-    EDGE, FOOT, FULL, PackedUniforms, UPPER_OPACITY, UPPER_THRESHOLD, paper, place_light, veil,
-};
+use super::{EDGE, FOOT, FULL, PackedUniforms, Place, UPPER_OPACITY, UPPER_THRESHOLD, paper, veil};
 use crate::clouds::histogram::Histogram;
-use crate::clouds::shared::{CloudUniforms, behind, inverse_soften, radiance, softened};
+use crate::clouds::shared::{CloudUniforms, behind, inverse_soften, radiance};
 use crate::geometry::math::smoothstep;
 use crate::params::Shading;
 
@@ -81,16 +79,12 @@ pub(crate) fn mean(
         return paper::mean(packed, clouds, texels);
     }
     let (mut opacity, mut light) = (0.0, Vec3::ZERO);
-    for &[photo, noise, detail] in texels {
-        let amount = photo + noise * (1.0 - photo);
-        let height = (amount - packed.threshold) * packed.contrast;
-        let own = (height - packed.erosion * (1.0 - detail)).max(0.0);
-        let halvings = packed.opacity_rate * own * own / (own + FOOT);
-        let alpha = (FULL * (1.0 - (-halvings).exp2())).min(1.0);
-        let lower = softened(alpha, EDGE);
-        let lit = place_light(packed, clouds, own, height);
-        let veil = veil(packed, noise);
-        light += lit * lower + radiance(clouds, 1.0) * (veil * (1.0 - lower));
+    for &texel in texels {
+        let place = Place::of(packed, texel);
+        let lower = place.opacity(packed);
+        let veil = veil(packed, texel[1]);
+        light +=
+            place.light(packed, clouds) * lower + radiance(clouds, 1.0) * (veil * (1.0 - lower));
         opacity += lower + veil * (1.0 - lower);
     }
     (opacity / texels.len() as f32, light / opacity.max(1e-6))

@@ -104,13 +104,7 @@ impl Pass {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn sun(azimuth_deg: f32, elevation_deg: f32) -> Vec3 {
-        Vec3::from(welkin_pack::mapping::direction_from_angles(
-            azimuth_deg.to_radians(),
-            elevation_deg.to_radians(),
-        ))
-    }
+    use crate::clouds::march::sun;
 
     #[test]
     fn places_lie_towards_the_sun_and_come_nearer_as_it_rises() {

@@ -32,7 +32,7 @@ use glam::{DVec2, Vec2, Vec3};
 
 use crate::clouds::shared::{
     CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, lit, offset, overcast_weight, scattered,
-    way_through,
+    softened, way_through,
 };
 use crate::device::map::LEAST_SIDE;
 use crate::geometry::math::smoothstep;
@@ -237,28 +237,42 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun: Vec3) -> PackedUnifor
 /// Radiance of an overcast sky far away, where single clouds cannot be told apart: the light of a place where photo, noise and detail have
 /// their means, and all around it.
 pub(crate) fn overcast(packed: &PackedUniforms, clouds: &CloudUniforms, means: [f32; 3]) -> Vec3 {
-    let [photo, noise, detail] = means;
-    let amount = photo + noise * (1.0 - photo);
-    let height = (amount - packed.threshold) * packed.contrast;
-    let own = (height - packed.erosion * (1.0 - detail)).max(0.0);
-    place_light(packed, clouds, own, height)
+    Place::of(packed, means).light(packed, clouds)
 }
 
-/// Radiance towards all sides of a place of this height after detail, where clouds have that height before it all the way to the sun.
-fn place_light(packed: &PackedUniforms, clouds: &CloudUniforms, own: f32, height: f32) -> Vec3 {
-    let passed = optical_path(packed, own, height);
-    let thickness = (own - packed.shut).max(0.0);
-    lit(
-        clouds,
-        scattered(clouds, None, packed.extinction * passed, thickness),
-    )
+/// A place of the layer where clouds have the same height all the way to the sun.
+struct Place {
+    /// Height before detail, and after it.
+    height: f32,
+    eaten: f32,
 }
 
-/// `passed` of the shader for the same.
-fn optical_path(packed: &PackedUniforms, own: f32, height: f32) -> f32 {
-    let over = packed.shut + 0.5 * packed.erosion;
-    let above = (height - DEPTHS - over).max(Vec3::ZERO);
-    OWN * (own - packed.shut).max(0.0) + SHARES.dot(above)
+impl Place {
+    /// Where photo, noise and detail are these: lines 14 to 17.
+    fn of(packed: &PackedUniforms, [photo, noise, detail]: [f32; 3]) -> Place {
+        let amount = photo + noise * (1.0 - photo);
+        let height = (amount - packed.threshold) * packed.contrast;
+        Place {
+            height,
+            eaten: (height - packed.erosion * (1.0 - detail)).max(0.0),
+        }
+    }
+
+    /// Opacity, by the same lines as the shader's.
+    fn opacity(&self, packed: &PackedUniforms) -> f32 {
+        let halvings = packed.opacity_rate * self.eaten * self.eaten / (self.eaten + FOOT);
+        softened((FULL * (1.0 - (-halvings).exp2())).min(1.0), EDGE)
+    }
+
+    /// Radiance towards all sides.
+    fn light(&self, packed: &PackedUniforms, clouds: &CloudUniforms) -> Vec3 {
+        let over = packed.shut + 0.5 * packed.erosion;
+        let above = (self.height - DEPTHS - over).max(Vec3::ZERO);
+        let thickness = (self.eaten - packed.shut).max(0.0);
+        let passed = OWN * thickness + SHARES.dot(above);
+        let shares = scattered(clouds, None, packed.extinction * passed, thickness);
+        lit(clouds, shares)
+    }
 }
 
 /// Opacity of the upper layer where the noise is this.

@@ -24,6 +24,6 @@ fn packed_paper_layer(direction: vec3f, narrowing: f32) -> vec4f {
     alpha = clamp(alpha + thick, 0.0, 1.0);                          // line 25
     grey = clamp(packed_fold(grey), 0.0, 1.0);                        // lines 22-25
     let tinted = mix(vec3f(grey), uniforms.clouds.tint, tint);       // lines 26-27
-    let radiance = cloud_light(tinted, cloud_facing(direction, alpha)); // line 28
+    let radiance = cloud_light(tinted, 1.0);                          // line 28
     return packed_over_veil(hit, level, direction, tint, vec4f(radiance, cloud_soften(alpha, PACKED_EDGE)));
 }
