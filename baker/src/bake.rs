@@ -202,7 +202,7 @@ fn make(resolved: &Resolved, reader: &Reader, steps: &Steps) -> Result<Vec<Sourc
         source(Role::Fbm, Format::Rgba8Unorm, fbm),
         source(Role::Flares, Format::R8Unorm, vec![flares]),
         source(Role::Layers, Format::Rgba8Unorm, layers),
-        source(Role::Sprites, Format::Rg8Unorm, vec![sprites]),
+        source(Role::Sprites, Format::Rgba8Unorm, vec![sprites]),
     ];
     if let Some(settings) = &resolved.skybox {
         let proceed = || step(STEPS[13], 13);

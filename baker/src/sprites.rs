@@ -8,12 +8,14 @@
 //! # Changes versus the paper
 //! - The pictures are not painted: each is a small cloud of noise, and a ray through every texel tells its opacity and the
 //!   light that it scatters (`march.rs`).
-//! - Grey and opacity alone: the bluish grey of fog is a constant, [`SheetKind::tint`].
+//! - No colour: the bluish grey of fog is a constant, [`SheetKind::tint`]. In its place light from six sides (`lights.rs`): from the front; from the
+//!   right and left, and from the top and bottom, as what they are more or less than the mean of both; from the back it follows opacity.
 //! - A recipe may name pictures instead (`pictures.rs`).
 //!
 //! The noise repeats in small volumes that all share; each cell has a random stream of its own, such as `sprites.12`, for
 //! its shape and its place in them.
 
+mod lights;
 mod march;
 mod pictures;
 mod puff;
@@ -39,7 +41,7 @@ const RELIEF_FOG: f32 = 0.025;
 const RELIEF_WISP: f32 = 0.07;
 const RELIEF_PUFF: f32 = 0.13;
 
-/// The sheet: grey and opacity.
+/// The sheet: grey, opacity, and what light from the right and from the top is more than from the other side.
 pub(crate) fn image(
     settings: &SpritesSettings,
     reader: &Reader,
@@ -51,7 +53,7 @@ pub(crate) fn image(
         SpriteSource::Sheet(_) | SpriteSource::Cells(_) => {
             let cells = pictures::cells(&files(settings), reader, side)?.into_iter();
             cells
-                .map(|cell| shade::relative(&cell, settings.contrast))
+                .map(|cell| shade::level(&shade::relative(&cell, settings.contrast)))
                 .collect()
         }
     };
@@ -66,12 +68,12 @@ fn noise(shape: &SpriteShape, contrast: f32, side: u32, seed: u64) -> Vec<Image>
     let cells = (0..SheetCell::COUNT).map(|index| {
         let mut stream = Stream::new(seed, &format!("sprites.{index}"));
         let (picture, relief) = cell(&volumes, shape, SheetCell(index), side, &mut stream);
-        shade::standardised(&picture, contrast * relief)
+        shade::sides(&picture, contrast * relief)
     });
     cells.collect()
 }
 
-/// Light times opacity, and opacity; and the relief that it is to have.
+/// What [`picture`] makes of it, and the relief that it is to have.
 fn cell(
     volumes: &Volumes,
     shape: &SpriteShape,
@@ -97,7 +99,7 @@ fn cell(
 fn sheet(cells: &[Image]) -> Image {
     let side = cells[0].width;
     let size = side * SheetCell::A_SIDE;
-    let mut sheet = Image::new(size, size, 2);
+    let mut sheet = Image::new(size, size, 4);
     for (index, cell) in (0..).zip(cells) {
         let [left, top] = SheetCell(index).place().map(|i| i * side);
         for (y, x) in (0..side).flat_map(|y| (0..side).map(move |x| (y, x))) {

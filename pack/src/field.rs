@@ -4,8 +4,11 @@
 //! [`Field::side_m`] in x and z. N. Wang, "Let There Be Clouds! Fast, Realistic Cloud-Rendering in Microsoft Flight
 //! Simulator 2004: A Century of Flight", Game Developer, 2004.
 
+mod exposure;
 pub(crate) mod glb;
 mod verify;
+
+pub use exposure::{Exposure, MOST_DEPTH, MOST_HALVINGS_M};
 
 /// Side of a section, in metres: the article counts sprites and boxes in blocks of 16 square kilometres.
 pub const SECTION_SIDE_M: f32 = 4000.0;
@@ -260,4 +263,6 @@ pub struct Sprite {
     pub cell: u8,
     /// Index of the box that it was placed in, in [`Cloud::boxes`]; its shading group is that of the box.
     pub cloud_box: u16,
+    /// Light that gets to it: see [`Field::expose`].
+    pub exposure: Exposure,
 }

@@ -20,7 +20,7 @@ pub const MANIFEST_FILE: &str = "pack.json";
 pub const KIND: &str = "welkin-pack";
 
 /// The version of the pack format that this crate reads and writes.
-pub const VERSION: u64 = 6;
+pub const VERSION: u64 = 7;
 
 /// The most aerosol that a pack's sky may have: a sandstorm.
 pub const MAX_AEROSOL_DEPTH: f32 = 2.0;

@@ -1,7 +1,7 @@
 //! A small field that breaks no rule, for tests to break.
 
 use crate::field::{
-    Category, Cloud, CloudBox, CloudKind, ColourLevel, Field, Hour, Sprite, bounds,
+    Category, Cloud, CloudBox, CloudKind, ColourLevel, Exposure, Field, Hour, Sprite, bounds,
     rounded_rotation,
 };
 
@@ -14,7 +14,7 @@ pub(crate) fn field() -> Field {
         least: 0.1,
         most: 1.0,
     };
-    Field {
+    let mut field = Field {
         sections: 1,
         hours: vec![
             hour(0.0, 0.04),
@@ -23,7 +23,9 @@ pub(crate) fn field() -> Field {
             hour(0.7, 0.7),
         ],
         clouds: (0..20).map(cloud).collect(),
-    }
+    };
+    field.expose();
+    field
 }
 
 fn cloud(index: usize) -> Cloud {
@@ -51,6 +53,7 @@ fn cloud(index: usize) -> Cloud {
             rotation_rad: rounded_rotation(0.3 * i as f32),
             cell: ((index + i) % 16) as u8,
             cloud_box: (i / 5) as u16,
+            exposure: Exposure::default(),
         }
     });
     let (centre_m, size_m) = bounds(&boxes);

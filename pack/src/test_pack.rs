@@ -350,7 +350,7 @@ pub(crate) fn layer(density: &[f32]) -> Image {
 
 /// Discs of the kinds' opacities, with waves for eddies; the flat-bottomed one is half a disc.
 fn sprites(size: u32) -> Image {
-    let mut image = Image::new(size, size, 2);
+    let mut image = Image::new(size, size, 4);
     let side = size / SheetCell::A_SIDE;
     for cell in (0..SheetCell::COUNT).map(SheetCell) {
         let (peak, eddies) = match cell.kind() {
@@ -370,7 +370,7 @@ fn sprites(size: u32) -> Image {
             };
             let wave = libm::sinf(9.0 * u) * libm::sinf(9.0 * v + f32::from(cell.0));
             let texel = image.texel_mut(left + x, top + y);
-            texel.copy_from_slice(&[0.5 + eddies * wave, alpha]);
+            texel.copy_from_slice(&[0.5 + eddies * wave, alpha, 0.5 - eddies * wave, 0.5]);
         }
     }
     image

@@ -52,23 +52,27 @@ pub fn facing(uniforms: &Uniforms, direction: Vec3, opacity: f32) -> f32 {
 /// Shares of sunlight and of skylight that a cloud of this height sends along a direction, where sunlight was halved `depth` times.
 pub fn scattered(uniforms: &Uniforms, direction: Vec3, depth: f32, height: f32) -> [f32; 2] {
     let cosine = direction.dot(uniforms.sky.sun_direction);
-    // Henyey and Greenstein, in 64 bits, against all sides alike.
-    let lobe = |weight: f32, g: f32| {
-        let (weight, g, cosine) = (f64::from(weight), f64::from(g), f64::from(cosine));
-        let base = 1.0 + g * g - 2.0 * g * cosine;
-        weight * (1.0 - g * g) / (base * libm::sqrt(base))
-    };
-    let forward = lobe(FORWARD[0], FORWARD[1]) as f32;
-    let phase = forward + BACKWARD[0] - BACKWARD[1] * cosine;
     let halved = |times: f32| libm::exp2f(-times);
     let sided = 1.0 + (ABEAM - SIDED * cosine - 1.0) * uniforms.clouds.low_sun;
-    let rim = SINGLE[1] * phase.min(BRIGHTEST) * halved(THIN * height + depth);
+    let rim = SINGLE[1] * phase(cosine) * halved(THIN * height + depth);
     let body = SINGLE[0] * halved(depth) + MULTIPLE[0] * halved(MULTIPLE[1] * depth);
     let powder = 1.0 - POWDER[0] * (0.5 - 0.5 * cosine) * (1.0 - POWDER[1] * height).max(0.0);
     [
         (body * sided + rim) * powder,
         1.0 - HIDDEN * height.min(1.0),
     ]
+}
+
+/// The phase function against all sides alike, by the cosine to the sun; limited about it.
+pub fn phase(cosine: f32) -> f32 {
+    // Henyey and Greenstein, in 64 bits.
+    let lobe = |weight: f32, g: f32| {
+        let (weight, g, cosine) = (f64::from(weight), f64::from(g), f64::from(cosine));
+        let base = 1.0 + g * g - 2.0 * g * cosine;
+        weight * (1.0 - g * g) / (base * libm::sqrt(base))
+    };
+    let forward = lobe(FORWARD[0], FORWARD[1]) as f32;
+    (forward + BACKWARD[0] - BACKWARD[1] * cosine).min(BRIGHTEST)
 }
 
 /// Radiance of what these shares are of, under the sunset tint.

@@ -1,13 +1,18 @@
 //! Twin of sprites.wgsl.
 
 use glam::{Vec2, Vec3, Vec4};
+use welkin_pack::field::{MOST_DEPTH, MOST_HALVINGS_M};
+use welkin_runtime::internals::clouds::shared::{MULTIPLE, SINGLE};
 use welkin_runtime::internals::frame::Uniforms;
 use welkin_runtime::internals::sprites::instances::Instance;
 use welkin_runtime::internals::sprites::locks::{LOCK, NEAR};
 use welkin_runtime::internals::sprites::outline::Outline;
 use welkin_runtime::internals::sprites::pipelines::SpriteBlock;
 use welkin_runtime::internals::sprites::station::SpriteView;
-use welkin_runtime::internals::sprites::{RIM_OPAQUE, SpriteUniforms, formation};
+use welkin_runtime::internals::sprites::{
+    BULGE, FRONT, LEAST_SKY, PHASE, RIM_OPAQUE, SIDES, SpriteUniforms, formation,
+};
+use welkin_runtime::params::Shading;
 
 use crate::texture::{Texture, smoothstep};
 use crate::{clouds, sky};
@@ -27,17 +32,71 @@ pub struct Inputs<'a> {
     pub sheet: &'a Texture,
     /// Outlines of its cells.
     pub outlines: &'a [Outline],
+    /// Which light sprites have.
+    pub shading: Shading,
 }
 
 /// A corner of a sprite.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Corner {
-    /// Radiance at a grey of one half.
+    /// Radiance where the greys of the picture are one half.
     pub light: Vec3,
-    /// What a grey of one more adds.
-    pub relief: Vec3,
+    /// What as much sunlight again adds.
+    pub sunlit: Vec3,
+    /// What as much skylight again adds.
+    pub skylit: Vec3,
+    /// Shares of more sunlight by grey, right and top above one half, and by what is clear.
+    pub sun: Vec4,
+    /// Shares of more skylight by grey, right and top above one half.
+    pub sky: Vec3,
     /// Opacity.
     pub opacity: f32,
+}
+
+impl Corner {
+    /// What it changes by if every grey is one more, the worst way.
+    pub fn relief(&self) -> Vec3 {
+        let sum = |shares: Vec3| shares.abs().element_sum();
+        self.sunlit * sum(self.sun.truncate()) + self.skylit * sum(self.sky)
+    }
+
+    /// Radiance at a texel of the sheet, and opacity.
+    fn at(&self, [grey, alpha, right, top]: [f32; 4]) -> (Vec3, f32) {
+        let greys = Vec3::new(grey, right, top) - 0.5;
+        let sun = self.sun.dot(greys.extend(1.0 - alpha));
+        let radiance = self.light + self.sunlit * sun + self.skylit * self.sky.dot(greys);
+        (radiance.max(Vec3::ZERO), alpha * self.opacity)
+    }
+}
+
+impl std::ops::Mul<f32> for Corner {
+    type Output = Corner;
+
+    fn mul(self, share: f32) -> Corner {
+        Corner {
+            light: self.light * share,
+            sunlit: self.sunlit * share,
+            skylit: self.skylit * share,
+            sun: self.sun * share,
+            sky: self.sky * share,
+            opacity: self.opacity * share,
+        }
+    }
+}
+
+impl std::ops::Add for Corner {
+    type Output = Corner;
+
+    fn add(self, other: Corner) -> Corner {
+        Corner {
+            light: self.light + other.light,
+            sunlit: self.sunlit + other.sunlit,
+            skylit: self.skylit + other.skylit,
+            sun: self.sun + other.sun,
+            sky: self.sky + other.sky,
+            opacity: self.opacity + other.opacity,
+        }
+    }
 }
 
 /// A sprite as it stands: a polygon in a plane.
@@ -95,6 +154,7 @@ pub fn placed(
         return None;
     }
     let [right, up] = axes(instance, facing);
+    let turned = [right, up, facing];
     let axes = [right * half_width, up * half_height];
     let outline = &inputs.outlines[usize::from(instance.names[0])];
     let outline = match block.vertices_log2 {
@@ -104,7 +164,13 @@ pub fn placed(
     let corners = outline.iter().map(|&[x, y]| {
         let offset = axes[0] * x + axes[1] * y;
         let share = (0.5 + 0.5 * offset.y / half_height).clamp(0.0, 1.0);
-        let corner = corner(inputs, instance, middle, offset, share, opacity, amount);
+        let shade = match inputs.shading {
+            Shading::Scattered => scattered(inputs, instance, turned, offset, middle),
+            Shading::Paper => article(inputs, instance, offset, share),
+        };
+        let corner = corner(
+            inputs, instance, middle, offset, share, opacity, amount, shade,
+        );
         (Vec2::new(x, y), corner)
     });
     let texels_a_pixel = inputs.view.cell_texels * inputs.view.pixel_rad * distance
@@ -136,6 +202,81 @@ fn axes(instance: &Instance, facing: Vec3) -> [Vec3; 2] {
     [right * cos + up * sin, up * cos - right * sin]
 }
 
+/// Light from the sun and from the sky, and their shares as of [`Corner`].
+struct Shade {
+    sunlit: Vec3,
+    skylit: Vec3,
+    sun: Vec4,
+    sky: Vec3,
+}
+
+fn scattered(
+    inputs: &Inputs,
+    instance: &Instance,
+    turned: [Vec3; 3],
+    offset: Vec3,
+    middle: Vec3,
+) -> Shade {
+    let own = &inputs.uniforms.sprites;
+    let to_sun = own.light_direction;
+    let share = |byte: u8| f32::from(byte) / 255.0;
+    let facing = turned[2];
+    let surface = offset + facing * BULGE * instance.radius_m();
+    let halvings_m = share(instance.above[2]) * MOST_HALVINGS_M;
+    // East, south, west, north; the side that the sun is on counts.
+    let side = |positive: usize, negative: usize, cosine: f32| {
+        let number = if cosine > 0.0 { positive } else { negative };
+        share(instance.sides[number]) * MOST_DEPTH * cosine * cosine
+    };
+    let depth = side(0, 2, to_sun.x)
+        + side(1, 3, to_sun.z)
+        + share(instance.above[0]) * MOST_DEPTH * to_sun.y * to_sun.y;
+    let depth = own.thickness * (depth - halvings_m * surface.dot(to_sun)).max(0.0);
+    let phase = clouds::phase((middle + offset).normalize().dot(to_sun));
+    let through = libm::exp2f(-depth);
+    let sunlit =
+        MULTIPLE[0] * libm::exp2f(-MULTIPLE[1] * depth) + (SINGLE[0] + PHASE * phase) * through;
+    let open = share(instance.above[1]) * libm::exp2f(0.5 * halvings_m * surface.y);
+    let [right, top, front] = turned.map(|axis| axis.dot(to_sun));
+    let rim = SINGLE[1] * (-front).max(0.0) * phase * through;
+    Shade {
+        sunlit: own.light * sunlit,
+        skylit: own.ambient * (LEAST_SKY + (1.0 - LEAST_SKY) * open.min(1.0)),
+        sun: own.relief
+            * Vec4::new(
+                FRONT + (1.0 - FRONT) * front.max(0.0),
+                SIDES * right,
+                SIDES * top,
+                rim / sunlit.max(1e-3),
+            ),
+        sky: own.relief * Vec3::new(FRONT, SIDES * turned[0].y, SIDES * turned[1].y),
+    }
+}
+
+fn article(inputs: &Inputs, instance: &Instance, offset: Vec3, up: f32) -> Shade {
+    let own = &inputs.uniforms.sprites;
+    let [low, high] = instance.heights();
+    let share = low + (high - low) * up;
+    let ambient = level(instance, up).truncate() * own.ambient;
+    let from_group = instance.from_group_m() + offset;
+    let towards = from_group.dot(own.light_direction) / from_group.length().max(1.0);
+    let lit = own.least + (own.most - own.least) * (0.5 + 0.5 * towards);
+    Shade {
+        sunlit: own.light * lit,
+        skylit: ambient * (1.0 - own.dark_base * (1.0 - share)),
+        sun: Vec4::X * own.relief,
+        sky: Vec3::X * own.relief,
+    }
+}
+
+/// Colour level and opacity between its lower and its upper edge.
+fn level(instance: &Instance, up: f32) -> Vec4 {
+    let [low, high] =
+        [instance.low, instance.high].map(|level| Vec4::from(level.map(|v| f32::from(v) / 255.0)));
+    low.lerp(high, up)
+}
+
+#[allow(clippy::too_many_arguments, reason = "what a corner is made of")]
 fn corner(
     inputs: &Inputs,
     instance: &Instance,
@@ -144,34 +285,33 @@ fn corner(
     up: f32,
     opacity: f32,
     amount: f32,
+    shade: Shade,
 ) -> Corner {
     let own = &inputs.uniforms.sprites;
     let place = middle + offset;
-    let away = place.length();
-    let direction = place / away;
-    let level = |level: [u8; 4]| Vec4::from(level.map(|v| f32::from(v) / 255.0));
-    let level = level(instance.low).lerp(level(instance.high), up);
-    let [low, high] = instance.heights();
-    let share = low + (high - low) * up;
-    let ambient = level.truncate() * own.ambient * (1.0 - own.dark_base * (1.0 - share));
-    let from_group = instance.from_group_m() + offset;
-    let towards = from_group.dot(own.light_direction) / from_group.length().max(1.0);
-    let share = own.least + (own.most - own.least) * (0.5 + 0.5 * towards);
-    let sun = own.light * share;
+    let direction = place.normalize();
     let uniforms = inputs.uniforms;
     let tint = clouds::tint(&uniforms.clouds, inputs.clouds, direction);
-    let light = ambient + sun * Vec3::ONE.lerp(uniforms.clouds.tint, tint);
-    let [from_cloud, centre] = [offset, Vec3::ZERO]
-        .map(|offset| (instance.from_cloud_m() + offset).length() / instance.cloud_radius_m());
+    let tint = Vec3::ONE.lerp(uniforms.clouds.tint, tint);
     let rim = rim(own, middle.length());
     let clear = clearness(own, inputs.view.height_m, place) * rim;
+    let sunlit = shade.sunlit * tint * clear;
+    let skylit = match inputs.shading {
+        Shading::Scattered => shade.skylit * tint * clear,
+        Shading::Paper => shade.skylit * clear,
+    };
+    let [from_cloud, centre] = [offset, Vec3::ZERO]
+        .map(|offset| (instance.from_cloud_m() + offset).length() / instance.cloud_radius_m());
     let flash = (place - own.flash_position) * own.flash_per_m;
-    let flash = own.flash * libm::exp2f(-flash.length_squared());
+    let flash = own.flash * libm::exp2f(-flash.length_squared()) * clear;
     let behind = sky::radiance(uniforms, inputs.sky, inputs.clouds, direction);
     Corner {
-        light: (light + flash) * clear + behind * (1.0 - clear),
-        relief: light * clear * own.relief,
-        opacity: opacity * formation::opacity(amount, from_cloud, centre) * level.w,
+        light: sunlit + skylit + flash + behind * (1.0 - clear),
+        sunlit,
+        skylit,
+        sun: shade.sun,
+        sky: shade.sky,
+        opacity: opacity * formation::opacity(amount, from_cloud, centre) * level(instance, up).w,
     }
 }
 
@@ -210,13 +350,11 @@ pub fn along(inputs: &Inputs, sprite: &Placed, ray: Vec3) -> Option<(Vec3, f32)>
     if place.abs().max_element() > 1.0 {
         return None;
     }
-    let (light, relief) = triangles(sprite.corners.len())
+    let corner = triangles(sprite.corners.len())
         .iter()
         .find_map(|triangle| within(triangle.map(|i| &sprite.corners[i]), place))?;
     let uv = (sprite.cell + Vec2::new(0.5 + 0.5 * s, 0.5 - 0.5 * t)) / 4.0;
-    let [grey, alpha, ..] = inputs.sheet.sample(uv.to_array(), sprite.level);
-    let radiance = light.truncate() + (grey - 0.5) * relief;
-    Some((radiance.max(Vec3::ZERO), alpha * light.w))
+    Some(corner.at(inputs.sheet.sample(uv.to_array(), sprite.level)))
 }
 
 /// The box around an outline, from its lower left corner anticlockwise.
@@ -244,8 +382,8 @@ fn triangles(corners: usize) -> &'static [[usize; 3]] {
     }
 }
 
-/// Light with opacity, and relief, at a place, if it is in the triangle: linear in it.
-fn within(corners: [&(Vec2, Corner); 3], place: Vec2) -> Option<(Vec4, Vec3)> {
+/// What is at a place, if it is in the triangle: linear in it.
+fn within(corners: [&(Vec2, Corner); 3], place: Vec2) -> Option<Corner> {
     let [a, b, c] = corners.map(|(at, _)| *at);
     let whole = (b - a).perp_dot(c - a);
     let shares =
@@ -253,10 +391,8 @@ fn within(corners: [&(Vec2, Corner); 3], place: Vec2) -> Option<(Vec4, Vec3)> {
     if shares.iter().any(|share| *share < 0.0) {
         return None;
     }
-    let (mut light, mut relief) = (Vec4::ZERO, Vec3::ZERO);
-    for ((_, corner), share) in corners.into_iter().zip(shares) {
-        light += corner.light.extend(corner.opacity) * share;
-        relief += corner.relief * share;
-    }
-    Some((light, relief))
+    let parts = corners.into_iter().zip(shares);
+    parts
+        .map(|((_, corner), share)| *corner * share)
+        .reduce(|sum, part| sum + part)
 }

@@ -58,6 +58,7 @@ mod tests {
                 rotation_rad: 0.0,
                 cell: 10,
                 cloud_box: (i % 2) as u16,
+                exposure: welkin_pack::field::Exposure::default(),
             })
             .collect()
     }

@@ -161,6 +161,7 @@ mod tests {
             rotation_rad,
             cell: 0,
             cloud_box: 0,
+            exposure: welkin_pack::field::Exposure::default(),
         }
     }
 

@@ -79,11 +79,13 @@ pub(crate) fn field(
     }
     // Only a rank that the recipe gives can be out of order.
     maker.clouds.sort_by(|a, b| a.rank.total_cmp(&b.rank));
-    Ok(Field {
+    let mut field = Field {
         sections: settings.sections,
         hours: settings.hours.clone(),
         clouds: maker.clouds,
-    })
+    };
+    field.expose();
+    Ok(field)
 }
 
 /// The boxes of every model. All their sprites together are within the limit, before the cull.

@@ -3,7 +3,7 @@
 use std::f32::consts::PI;
 
 use welkin_pack::SheetCell;
-use welkin_pack::field::{Category, CloudBox, Sprite, rounded_rotation};
+use welkin_pack::field::{Category, CloudBox, Exposure, Sprite, rounded_rotation};
 
 use super::grid::snapped;
 use crate::settings::{BoxSettings, PlacedSprite};
@@ -48,6 +48,7 @@ fn by_hand(own: &PlacedSprite, index: u16) -> Sprite {
         rotation_rad: rounded_rotation(own.rotation_rad),
         cell: own.cell,
         cloud_box: index,
+        exposure: Exposure::default(),
     }
 }
 
@@ -90,6 +91,7 @@ fn sprite(settings: &BoxSettings, stored: &CloudBox, index: u16, stream: &mut St
         rotation_rad: rounded_rotation(turn),
         cell,
         cloud_box: index,
+        exposure: Exposure::default(),
     }
 }
 

@@ -88,6 +88,7 @@ mod tests {
             rotation_rad: 0.0,
             cell: 0,
             cloud_box: 0,
+            exposure: welkin_pack::field::Exposure::default(),
         };
         ground.cover_by(&sprite, false);
         let mut spread = Spread::new(ground.side_m());

@@ -2,12 +2,14 @@
 //!
 //! # Theory
 //! A ray goes from the viewer through the cloud. Of a step of the optical depth `t` the share `1 - exp(-t)` is seen (Beer
-//! and Lambert), dimmed by the steps before it. It shines with the light of one direction, scattered once and dimmed on
+//! and Lambert), dimmed by the steps before it. It shines with the light of one of six directions, dimmed on
 //! its way through the cloud, and with light from everywhere, dimmed by how deep it lies. J. T. Kajiya, B. P. Von Herzen,
 //! "Ray Tracing Volume Densities", SIGGRAPH 1984.
 
 use rayon::prelude::*;
 use welkin_pack::Image;
+
+use super::lights::Lights;
 
 /// Nothing of a sprite lies farther from the middle of its cell, whose half side is 1.
 pub(super) const REACH: f32 = 0.84;
@@ -47,35 +49,33 @@ const OPAQUE: f32 = 1.0 / 128.0;
 /// A step that is seen less than this is as bright as the one before it.
 const FAINT: f32 = 1.0 / 32.0;
 
-/// Unit vector to the light: from the viewer's side, half right and from above.
-const LIGHT: [f32; 3] = [0.2, 0.52, 0.83];
-
-/// Steps towards the light: where each ends. Beyond, little more is hidden.
-const LIGHT_STEPS: [f32; 3] = [0.05, 0.13, 0.28];
-
 /// Share of the light that comes from one direction.
 const DIRECT: f32 = 0.5;
 
 /// Share of the optical depth that dims it: most of what is scattered goes on forwards.
 const DIMMING: f32 = 0.15;
 
-/// A picture of `side` texels: light times opacity, and opacity.
+/// A picture of `side` texels, times opacity but for the opacity: light from the front, opacity, and half of what light from the right
+/// is more than that from the left, and from the top than from the bottom.
 pub(super) fn picture(body: &impl Body, side: u32) -> Image {
-    let mut image = Image::new(side, side, 2);
+    let lights = Lights::new(body);
+    let mut image = Image::new(side, side, 4);
     let unit = |i: usize| (i as f32 + 0.5) / side as f32 * 2.0 - 1.0;
-    let rows = image.texels.par_chunks_mut(2 * side as usize);
+    let rows = image.texels.par_chunks_mut(4 * side as usize);
     rows.enumerate().for_each(|(y, row)| {
-        for (x, texel) in row.chunks_exact_mut(2).enumerate() {
-            texel.copy_from_slice(&ray(body, [unit(x), -unit(y)]));
+        for (x, texel) in row.chunks_exact_mut(4).enumerate() {
+            let ([right, left, top, bottom, front, _], alpha) =
+                ray(body, &lights, [unit(x), -unit(y)]);
+            texel.copy_from_slice(&[front, alpha, 0.5 * (right - left), 0.5 * (top - bottom)]);
         }
     });
     image
 }
 
-/// Light that comes out of the cloud towards +z, and opacity.
-fn ray<B: Body>(body: &B, [x, y]: [f32; 2]) -> [f32; 2] {
+/// Light of each of the six directions that comes out of the cloud towards +z, and opacity.
+fn ray<B: Body>(body: &B, lights: &Lights, [x, y]: [f32; 2]) -> ([f32; 6], f32) {
     let step = B::STEP;
-    let (mut clear, mut light, mut before) = (1.0, 0.0, None);
+    let (mut clear, mut light, mut before) = (1.0, [0.0; 6], None);
     let [mut z, back] = body.span([x, y]);
     while z > back && clear > OPAQUE {
         let place = [x, y, z];
@@ -89,26 +89,21 @@ fn ray<B: Body>(body: &B, [x, y]: [f32; 2]) -> [f32; 2] {
                 let seen = clear * (1.0 - passed);
                 let shine = before
                     .filter(|_| seen < FAINT)
-                    .unwrap_or_else(|| brightness(body, place, openness));
+                    .unwrap_or_else(|| brightness(lights.depths(place), openness));
                 before = Some(shine);
-                light += seen * shine;
+                for (sum, shine) in light.iter_mut().zip(shine) {
+                    *sum += seen * shine;
+                }
                 clear *= passed;
             }
         }
         z -= step;
     }
-    [light, 1.0 - clear]
+    (light, 1.0 - clear)
 }
 
-fn brightness(body: &impl Body, place: [f32; 3], openness: f32) -> f32 {
-    let (mut depth, mut from) = (0.0, 0.0);
-    for to in LIGHT_STEPS {
-        let along = 0.5 * (from + to);
-        let there = [0, 1, 2].map(|a| place[a] + along * LIGHT[a]);
-        depth += (to - from) * body.shadow(there);
-        from = to;
-    }
-    DIRECT * libm::expf(-DIMMING * depth) + (1.0 - DIRECT) * openness
+fn brightness(depths: [f32; 6], openness: f32) -> [f32; 6] {
+    depths.map(|depth| DIRECT * libm::expf(-DIMMING * depth) + (1.0 - DIRECT) * openness)
 }
 
 #[cfg(test)]
@@ -150,11 +145,12 @@ mod tests {
                 extinction,
                 shadow: 0.0,
             };
-            let [light, alpha] = ray(&block, [-0.5, 0.0]);
+            let lights = Lights::new(&block);
+            let ([light, ..], alpha) = ray(&block, &lights, [-0.5, 0.0]);
             assert!((alpha - 1.0 + libm::expf(-extinction)).abs() < 1e-5);
             // One half is not dimmed, of the other a quarter is left.
             assert!((light / alpha - 0.625).abs() < 1e-5);
-            assert_eq!(ray(&block, [0.5, 0.0]), [0.0, 0.0]);
+            assert_eq!(ray(&block, &lights, [0.5, 0.0]), ([0.0; 6], 0.0));
         }
     }
 
@@ -164,10 +160,13 @@ mod tests {
             extinction: 1e4,
             shadow: 5.0,
         };
-        let [light, alpha] = ray(&block, [-0.5, 0.0]);
+        let lights = Lights::new(&block);
+        let (light, alpha) = ray(&block, &lights, [-0.5, 0.0]);
         assert!(alpha > 1.0 - OPAQUE);
-        let depth = 5.0 * LIGHT_STEPS[LIGHT_STEPS.len() - 1];
-        let expected = 0.5 * libm::expf(-DIMMING * depth) + 0.5 * 0.25;
-        assert!((light - expected).abs() < 1e-5);
+        // The ray is seen where it enters, a quarter of the way from the front to the back.
+        for (light, way) in light.iter().zip([1.34, 0.34, 0.84, 0.84, 0.34, 1.34]) {
+            let expected = 0.5 * libm::expf(-DIMMING * 5.0 * way) + 0.5 * 0.25;
+            assert!((light - expected).abs() < 5e-3, "{light} {expected}");
+        }
     }
 }

@@ -36,10 +36,10 @@ const KNOBS: [[f32; 3]; 4] = [
 const SHADOW_KNOBS: usize = 2;
 
 /// Depth at which the puff has its full density.
-const EDGE: f32 = 0.10;
+const EDGE: f32 = 0.2;
 
 /// Optical depth a unit of length there.
-const EXTINCTION: f32 = 26.0;
+const EXTINCTION: f32 = 20.0;
 
 /// How fast the light from everywhere falls off with the depth of a crease.
 const HIDING: f32 = 5.0;

@@ -1,4 +1,4 @@
-//! The grey of a sprite: its mean, its relief, and how it goes on where there is no cloud.
+//! The greys of a sprite: their mean, their relief, and how they go on where there is no cloud.
 
 use welkin_pack::Image;
 
@@ -20,16 +20,68 @@ const LEAST_LIGHT: f32 = 1e-30;
 /// Weight of what is around beside a texel's own opacity.
 const AROUND: f32 = 1.0 / 64.0;
 
+/// Share of a difference of sides that is taken away where it is wider than [`WIDE`] of the sprite: the light through a whole cloud tells it.
+const WIDER: f32 = 0.7;
+const WIDE: u32 = 8;
+
+/// The texels of a cell of the sheet, of light from the front, opacity, and the differences of the sides.
+pub(super) fn sides(picture: &Image, relief: f32) -> Image {
+    let [front, right, top] = [0, 2, 3].map(|channel| {
+        let mut light = Image::new(picture.width, picture.height, 2);
+        let texels = light.texels.chunks_exact_mut(2);
+        for (texel, from) in texels.zip(picture.texels.chunks_exact(4)) {
+            texel.copy_from_slice(&[from[channel], from[1]]);
+        }
+        let light = if channel == 0 { light } else { finer(&light) };
+        standardised(&light, relief)
+    });
+    cell(&front, [&right, &top])
+}
+
+/// The same of a picture that is lit from one side alone.
+pub(super) fn level(picture: &Image) -> Image {
+    let flat = filter::plane(picture.width, picture.height, |_, _| 0.5);
+    cell(picture, [&flat, &flat])
+}
+
+/// Greys of three pictures, and the opacity of the first.
+fn cell(front: &Image, sides: [&Image; 2]) -> Image {
+    let mut cell = Image::new(front.width, front.height, 4);
+    for (i, texel) in cell.texels.chunks_exact_mut(4).enumerate() {
+        let [right, top] = sides.map(|side| side.texels[i * side.channels as usize]);
+        texel.copy_from_slice(&[front.texels[2 * i], front.texels[2 * i + 1], right, top]);
+    }
+    cell
+}
+
+/// Without most of what changes slowly.
+fn finer(picture: &Image) -> Image {
+    let mut small = picture.clone();
+    while small.width > WIDE {
+        small = halved(&small);
+    }
+    let small = filter::plane(small.width, small.width, |x, y| {
+        let texel = small.texel(x, y);
+        texel[0] / texel[1].max(AROUND)
+    });
+    let slow = filter::resample(&small, picture.width, picture.width);
+    let mut finer = picture.clone();
+    for (texel, slow) in finer.texels.chunks_exact_mut(2).zip(&slow.texels) {
+        texel[0] -= WIDER * slow * texel[1];
+    }
+    finer
+}
+
 /// Grey, with the mean 0.5 where the sprite is opaque and about `relief` as its standard deviation, and opacity, of light
 /// times opacity, and opacity.
-pub(super) fn standardised(picture: &Image, relief: f32) -> Image {
+fn standardised(picture: &Image, relief: f32) -> Image {
     let mean = mean(picture);
     let squares = texels(picture).map(|[light, alpha]| {
         let away = light / alpha.max(LEAST_ALPHA) - mean;
         f64::from(alpha * away * away)
     });
     let spread = libm::sqrt(squares.sum::<f64>() / weight(picture)) as f32;
-    let scale = if spread > LEAST_SPREAD * mean {
+    let scale = if spread > LEAST_SPREAD * mean.abs().max(LEAST_LIGHT) {
         1.0 / spread
     } else {
         0.0

@@ -2,8 +2,8 @@
 
 use super::report::{Bound, Report};
 use super::rule::{
-    FIELD_BOXES, FIELD_COUNTS, FIELD_CULL, FIELD_HOURS, FIELD_INDEX, FIELD_LIGHT, FIELD_RANGE,
-    FIELD_RANK, FIELD_SIZE, FIELD_SPREAD,
+    FIELD_BOXES, FIELD_COUNTS, FIELD_CULL, FIELD_EXPOSURE, FIELD_HOURS, FIELD_INDEX, FIELD_LIGHT,
+    FIELD_RANGE, FIELD_RANK, FIELD_SIZE, FIELD_SPREAD,
 };
 use crate::field::{Cloud, Field, Hour, Sprite};
 use crate::manifest::FieldEntry;
@@ -22,7 +22,11 @@ const BOXES_A_SECTION: Bound = Bound::Within(20.0, 200.0);
 
 pub(super) fn check(report: &mut Report, field: &Field) {
     let file = FieldEntry::FILE;
-    report.verify(FIELD_RANGE, SUBJECT, field.verify_ranges(file));
+    let ranges = report.verify(FIELD_RANGE, SUBJECT, field.verify_ranges(file));
+    match ranges {
+        Some(()) => report.at_most(FIELD_EXPOSURE, SUBJECT, off_the_exposure(field), 1.0),
+        None => report.skip(FIELD_EXPOSURE, SUBJECT, "a number is out of its range"),
+    }
     report.verify(FIELD_RANK, SUBJECT, field.verify_ranks(file));
     report.verify(FIELD_HOURS, SUBJECT, field.verify_hours(file));
     check_light(report, field);
@@ -101,6 +105,20 @@ fn check_counts(report: &mut Report, field: &Field) {
     );
     let a_section = field.box_count() as f64 / f64::from(field.sections * field.sections);
     report.measure(FIELD_COUNTS, "field.sections", a_section, BOXES_A_SECTION);
+}
+
+/// The largest difference of a sprite's exposure from what the field makes of it, in steps of a byte.
+fn off_the_exposure(field: &Field) -> f64 {
+    let mut exposed = field.clone();
+    exposed.expose();
+    let sprites = |field: &Field| {
+        let all = field.clouds.iter().flat_map(|cloud| &cloud.sprites);
+        all.map(|sprite| sprite.exposure.bytes())
+            .collect::<Vec<_>>()
+    };
+    let (found, expected) = (sprites(field), sprites(&exposed));
+    let pairs = found.iter().flatten().zip(expected.iter().flatten());
+    f64::from(pairs.map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0))
 }
 
 /// Sprites of a cloud whose centre is outside their box.

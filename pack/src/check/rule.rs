@@ -125,6 +125,7 @@ rules! {
     FIELD_RANK = error("field-rank", "The clouds are in the order of their ranks, which are between 0 and 1.");
     FIELD_HOURS = error("field-hours", "The light of the clouds is in the order of time, and its numbers in range.");
     FIELD_SPREAD = error("field-spread", "The ranks of the clouds differ, so that they come one after another.");
+    FIELD_EXPOSURE = error("field-exposure", "Each sprite has the light that the clouds around it leave.");
     FIELD_SIZE = error("field-size", "No sprite is far larger than its cloud.");
     FIELD_LIGHT = error("field-light", "There is an hour with light on the clouds.");
     FIELD_COUNTS = warning("field-counts", "Clouds have 5 to 400 sprites, boxes 1 to 100, and sections 20 to 200 boxes.");

@@ -11,6 +11,7 @@ use crate::view::{Texel, View};
 
 const NAME: &str = Role::Sprites.name();
 const GREY: usize = 0;
+const GREYS: [usize; 3] = [0, 2, 3];
 const ALPHA: usize = 1;
 
 /// Opacity that the densest place of a puff has at least, or the sky shows through a heap of few sprites.
@@ -45,8 +46,11 @@ pub(super) fn check(report: &mut Report, texture: &Texture) {
 
 /// What pictures of one's own may break on purpose.
 fn check_kinds(report: &mut Report, cells: &[Cell]) {
-    let off = cells.iter().map(|cell| (cell.grey() - 0.5).abs());
-    report.at_most(SPRITE_GREY, NAME, off.fold(0.0, f64::max), 0.05);
+    for channel in GREYS {
+        let off = cells.iter().map(|cell| (cell.grey(channel) - 0.5).abs());
+        let name = subject(Role::Sprites, channel);
+        report.at_most(SPRITE_GREY, &name, off.fold(0.0, f64::max), 0.05);
+    }
     let of = |kind: SheetKind| cells.iter().filter(move |cell| cell.kind == kind);
     let flat = || of(SheetKind::FlatBottomed);
     let cores = of(SheetKind::Puffy).chain(flat()).map(Cell::peak);
@@ -73,17 +77,16 @@ fn brightest_border(image: View) -> f64 {
 }
 
 fn check_levels(report: &mut Report, levels: &[View]) {
-    let worst = |measure: fn(View, View) -> f64| {
+    let worst = |measure: &dyn Fn(View, View) -> f64| {
         let steps = levels.windows(2).map(|pair| measure(pair[0], pair[1]));
         steps.fold(0.0, f64::max)
     };
     // Both levels were rounded: half a step each, and seven digits.
-    for (channel, figure, most) in [
-        (GREY, worst(outside_of_those_above), 1.0),
-        (ALPHA, worst(off_the_mean), 1.0001),
-    ] {
-        let name = subject(Role::Sprites, channel);
-        report.at_most(SPRITE_LEVEL, &name, figure, most);
+    let name = |channel| subject(Role::Sprites, channel);
+    report.at_most(SPRITE_LEVEL, &name(ALPHA), worst(&off_the_mean), 1.0001);
+    for grey in GREYS {
+        let outside = worst(&|above, level| outside_of_those_above(above, level, grey));
+        report.at_most(SPRITE_LEVEL, &name(grey), outside, 1.0);
     }
 }
 
@@ -104,10 +107,10 @@ fn off_the_mean(above: View, level: View) -> f64 {
 }
 
 /// By how many steps a texel's grey, which is a mean by weights, lies outside of the greys above it.
-fn outside_of_those_above(above: View, level: View) -> f64 {
+fn outside_of_those_above(above: View, level: View, channel: usize) -> f64 {
     let steps = places(level.width).map(|[x, y]| {
-        let greys = under(above, [x, y]).map(|t| unorm8(t[GREY]));
-        let grey = unorm8(level.texel(x, y)[GREY]);
+        let greys = under(above, [x, y]).map(|t| unorm8(t[channel]));
+        let grey = unorm8(level.texel(x, y)[channel]);
         let [least, most] = greys
             .iter()
             .fold([255, 0], |[a, b], &g| [g.min(a), g.max(b)]);
@@ -146,30 +149,32 @@ impl<'a> Cell<'a> {
         }
     }
 
-    /// Grey and opacity of one of its texels.
-    fn texel(&self, [x, y]: [u32; 2]) -> [f64; 2] {
+    /// One of its greys, and the opacity, of one of its texels.
+    fn texel(&self, [x, y]: [u32; 2], channel: usize) -> [f64; 2] {
         let [left, top] = self.corner;
         let texel = self.image.texel(left + x, top + y);
-        [texel[GREY], texel[ALPHA]].map(f64::from)
+        [texel[channel], texel[ALPHA]].map(f64::from)
     }
 
-    fn texels(&self) -> impl Iterator<Item = [f64; 2]> {
-        places(self.side).map(|place| self.texel(place))
+    fn texels(&self, channel: usize) -> impl Iterator<Item = [f64; 2]> {
+        places(self.side).map(move |place| self.texel(place, channel))
     }
 
     fn opacity(&self) -> f64 {
-        let sum: f64 = self.texels().map(|[_, alpha]| alpha).sum();
+        let sum: f64 = self.texels(GREY).map(|[_, alpha]| alpha).sum();
         sum / f64::from(self.side * self.side)
     }
 
     fn peak(&self) -> f64 {
-        self.texels().map(|[_, alpha]| alpha).fold(0.0, f64::max)
+        self.texels(GREY)
+            .map(|[_, alpha]| alpha)
+            .fold(0.0, f64::max)
     }
 
     /// Mean grey, weighted by opacity; not a number if there is none.
-    fn grey(&self) -> f64 {
+    fn grey(&self, channel: usize) -> f64 {
         let [sum, weights] = self
-            .texels()
+            .texels(channel)
             .fold([0.0; 2], |[sum, weights], [grey, alpha]| {
                 [sum + alpha * grey, weights + alpha]
             });
@@ -180,9 +185,9 @@ impl<'a> Cell<'a> {
     fn roughness(&self) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);
         for [x, y] in places(self.side - 1) {
-            let [grey, alpha] = self.texel([x, y]);
+            let [grey, alpha] = self.texel([x, y], GREY);
             for beside in [[x + 1, y], [x, y + 1]] {
-                let [other, opacity] = self.texel(beside);
+                let [other, opacity] = self.texel(beside, GREY);
                 let weight = alpha.min(opacity);
                 sum += weight * (other - grey) * (other - grey);
                 weights += weight;
@@ -197,7 +202,7 @@ impl<'a> Cell<'a> {
     fn unevenness(&self) -> f64 {
         let half = self.peak() / 2.0;
         let rows = (0..self.side).filter_map(|x| {
-            let is_opaque = |y: &u32| self.texel([x, *y])[1] >= half;
+            let is_opaque = |y: &u32| self.texel([x, *y], GREY)[1] >= half;
             (0..self.side).rev().find(is_opaque)
         });
         let mut rows: Vec<u32> = rows.collect();

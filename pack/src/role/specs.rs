@@ -214,7 +214,7 @@ pub(super) const LAYERS: RoleSpec = RoleSpec {
 };
 
 pub(super) const SPRITES: RoleSpec = RoleSpec {
-    formats: &[Format::Rg8Unorm],
+    formats: &[Format::Rgba8Unorm],
     size: [512, 512],
     sides: [128, 2048],
     // Cells of 8 texels: smaller ones would be border and little else.
@@ -223,9 +223,17 @@ pub(super) const SPRITES: RoleSpec = RoleSpec {
     channels: &[
         share(
             "grey",
-            "shade of the cloud, 0.5 the mean over a sprite; it goes on where the sprite has ended",
+            "light from the viewer's side, 0.5 the mean over a sprite; it goes on where the sprite has ended",
         ),
         share("alpha", "opacity, 0 along the border of every cell"),
+        share(
+            "right",
+            "light from the right against that from the left, 0.5 as much; it goes on like grey",
+        ),
+        share(
+            "top",
+            "light from the top against that from the bottom, 0.5 as much; it goes on like grey",
+        ),
     ],
     ..TILE
 };

@@ -106,7 +106,7 @@ const LARGEST: [(Role, Format, [u32; 2]); 10] = [
     (Role::Fbm, Format::Rgba8Unorm, [1024, 1024]),
     (Role::Flares, Format::R8Unorm, [1024, 1024]),
     (Role::Layers, Format::Rgba8Unorm, [1024, 1024]),
-    (Role::Sprites, Format::Rg8Unorm, [2048, 2048]),
+    (Role::Sprites, Format::Rgba8Unorm, [2048, 2048]),
     (Role::Skybox, Format::Rgba16Float, [2048, 2048]),
 ];
 

@@ -10,7 +10,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use welkin_pack::field::{COLOUR_LEVELS, Cloud, CloudKind, ColourLevel, SECTION_SIDE_M, Sprite};
+use welkin_pack::field::{
+    COLOUR_LEVELS, Cloud, CloudKind, ColourLevel, Exposure, SECTION_SIDE_M, Sprite,
+};
 use welkin_pack::{Field, SheetCell};
 
 /// A sprite on the device: see `SpriteInstance` of sprites.wgsl for what each member holds.
@@ -33,8 +35,10 @@ pub struct Instance {
     pub names: [u8; 4],
     /// xyz: the way it faces for ever, w: 1 if it does, in 127ths.
     pub lock: [i8; 4],
-    /// Nothing: the rest of the last texel.
-    pub rest: [u32; 2],
+    /// Halvings of sunlight from the east, south, west and north over [`MOST_DEPTH`], in 255ths.
+    pub sides: [u8; 4],
+    /// The same from above; the sky's share; halvings a metre over [`MOST_HALVINGS_M`]; nothing.
+    pub above: [u8; 4],
 }
 
 /// The largest half side of a sprite, in metres: what a device reads as 1. Steps are an eighth of a metre.
@@ -182,7 +186,13 @@ fn of_sprite(cloud: &Cloud, sprite: &Sprite, number: [u8; 2]) -> Instance {
         high,
         names: [sprite.cell, number[0], number[1], 0],
         lock: [0; 4],
-        rest: [0; 2],
+        sides: sprite.exposure.sides,
+        above: [
+            sprite.exposure.above,
+            sprite.exposure.sky,
+            sprite.exposure.halvings,
+            0,
+        ],
     }
 }
 
@@ -204,10 +214,26 @@ fn billboard(cloud: &Cloud, number: [u8; 2]) -> Instance {
         rotation_rad: 0.0,
         cell,
         cloud_box: u16::MAX,
+        exposure: mean_exposure(cloud),
     };
     let mut instance = of_sprite(cloud, &sprite, number);
     instance.names[3] = 1;
     instance
+}
+
+/// What of its sprites a cloud's billboard shows.
+fn mean_exposure(cloud: &Cloud) -> Exposure {
+    let count = cloud.sprites.len().max(1) as u32;
+    let mean = |value: &dyn Fn(&Exposure) -> u8| {
+        let values = cloud.sprites.iter().map(|s| u32::from(value(&s.exposure)));
+        (values.sum::<u32>() / count) as u8
+    };
+    Exposure {
+        sides: [0, 1, 2, 3].map(|side| mean(&|own| own.sides[side])),
+        above: mean(&|own| own.above),
+        sky: mean(&|own| own.sky),
+        halvings: mean(&|own| own.halvings),
+    }
 }
 
 /// How much larger a cloud's billboard is than the cloud.
@@ -286,6 +312,7 @@ mod tests {
             rotation_rad: 0.5,
             cell: 12,
             cloud_box: 0,
+            exposure: Exposure::default(),
         }
     }
 

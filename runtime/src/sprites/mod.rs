@@ -47,7 +47,7 @@ use crate::clear_sky::light::Light;
 use crate::clouds::shared::{self, CloudUniforms, CloudView, LOW_HEIGHT_M};
 use crate::geometry::math::smoothstep;
 use crate::geometry::uniforms::uniforms;
-use crate::params::SkyParams;
+use crate::params::{Shading, SkyParams};
 
 uniforms! {
     /// Clouds of sprites.
@@ -82,8 +82,8 @@ uniforms! {
         billboards_m: f32,
         /// Light of a flash of lightning where it strikes.
         flash: Vec3,
-        /// Nothing.
-        _pad: f32,
+        /// Factor on depths.
+        thickness: f32,
         /// From the viewer to the flash, m.
         flash_position: Vec3,
         /// 1 / reach of the flash, 1 / m.
@@ -97,7 +97,7 @@ uniforms! {
 const EXTINCTION: f32 = 5.5e-5;
 const AIR_HEIGHT_M: f32 = 1500.0;
 /// Share of sight over which clouds go out.
-const RIM: f32 = 0.45;
+const RIM: f32 = 0.7;
 /// Clouds are opaque up to the last 1 / this of the rim: many of them lie over each other, so opacity alone would end in an edge.
 pub const RIM_OPAQUE: f32 = 4.0;
 /// Share of the way to the billboards over which sprites change to them.
@@ -105,6 +105,18 @@ const CHANGE: f32 = 0.15;
 /// Opacity of sprites at density 0 and 1, and how much darker than its colour level a base is then.
 const OPACITY: [f32; 2] = [0.85, 1.0];
 const DARK_BASE: [f32; 2] = [0.0, 0.5];
+/// Factor on depths at density 0 and 1.
+const THICKNESS: [f32; 2] = [0.6, 1.1];
+/// Share of the phase function in what a sprite shows as a whole; rims show all of it.
+pub const PHASE: f32 = 0.08;
+/// How far the near side of a sprite's body is before its middle, in half sides.
+pub const BULGE: f32 = 0.35;
+/// How much of the relief that is lit from the front shows in light from the side.
+pub const FRONT: f32 = 0.4;
+/// How much of the relief of the sides shows.
+pub const SIDES: f32 = 0.7;
+/// Share of skylight that gets to the deepest place.
+pub const LEAST_SKY: f32 = 0.25;
 /// How strong the relief of the sheet shows at density 0 and 1.
 const RELIEF: [f32; 2] = [1.15, 0.8];
 /// Sine of the sun's elevation at which moon and sun change places, and over which both are dim.
@@ -130,6 +142,14 @@ pub fn uniforms(
             hours::of_hour(&hours::at(hours, params.time), factor)
         }
         false => hours::of_sky(clouds),
+    };
+    let lit = match params.shading {
+        Shading::Scattered if !own.hours => hours::SpriteLight {
+            direct: clouds.sunlight,
+            ambient: clouds.ambient,
+            ..lit
+        },
+        _ => lit,
     };
     let mix = |[from, to]: [f32; 2]| from + (to - from) * params.density;
     let billboards = own.billboards_beyond_m;
@@ -157,7 +177,7 @@ pub fn uniforms(
         flash,
         flash_position: flash_place.as_vec3(),
         flash_per_m: 1.0 / FLASH_REACH_M,
-        ..Default::default()
+        thickness: mix(THICKNESS),
     }
 }
 

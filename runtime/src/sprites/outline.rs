@@ -114,10 +114,10 @@ mod tests {
         let place = |i: u32| ((i % cell) as f32 + 0.5) / cell as f32 * 2.0 - 1.0;
         let texels = (0..side * side).flat_map(|i| {
             let (x, y) = (place(i % side), -place(i / side));
-            [128, if inside(x, y) { 255 } else { 0 }]
+            [128, if inside(x, y) { 255 } else { 0 }, 128, 128]
         });
         Texture {
-            format: Format::Rg8Unorm,
+            format: Format::Rgba8Unorm,
             shape: Shape::D2,
             width: side,
             height: side,

@@ -2,6 +2,7 @@
 
 use glam::{UVec2, Vec3};
 use welkin_pack::SheetCell;
+use welkin_pack::field::{MOST_DEPTH, MOST_HALVINGS_M};
 
 use super::outline::Outline;
 use super::station::{self, RingUniforms, SpriteView};
@@ -26,6 +27,13 @@ pub const PART: Part = Part {
             Value::F32(instances::MOST_HALF_SIZE_M),
         ),
         ("SPRITE_MOST_AWAY", Value::F32(instances::MOST_AWAY_M)),
+        ("SPRITE_MOST_DEPTH", Value::F32(MOST_DEPTH)),
+        ("SPRITE_MOST_HALVINGS", Value::F32(MOST_HALVINGS_M)),
+        ("SPRITE_PHASE", Value::F32(super::PHASE)),
+        ("SPRITE_BULGE", Value::F32(super::BULGE)),
+        ("SPRITE_FRONT", Value::F32(super::FRONT)),
+        ("SPRITE_SIDES", Value::F32(super::SIDES)),
+        ("SPRITE_LEAST_SKY", Value::F32(super::LEAST_SKY)),
         ("SPRITES_A_ROW", Value::U32(instances::INSTANCES_PER_ROW)),
         ("SPRITE_FIRST_STAGE", Value::F32(formation::FIRST_STAGE)),
         ("SPRITE_LOCK", Value::F32(locks::LOCK)),

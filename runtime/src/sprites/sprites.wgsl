@@ -28,6 +28,10 @@ struct SpriteInstance {
     is_billboard: bool, // of a whole cloud
     lock: vec3f,        // the way it faces for ever
     is_locked: f32,     // 1 if it does
+    sides: vec4f,       // halvings of sunlight on its way from low in the east, south, west and north
+    above: f32,         // the same from above
+    sky: f32,           // share of skylight that gets there
+    halvings_m: f32,    // halvings a metre about it
 }
 
 // A sprite of the block. Read from a texture, since instances of a few vertices each leave most of a GPU's lanes idle.
@@ -42,6 +46,7 @@ fn sprite_instance(number: u32) -> SpriteInstance {
     let from_group = vec4f(unpack2x16snorm(b.z), unpack2x16snorm(b.w));
     let from_cloud = SPRITE_MOST_AWAY * vec4f(unpack2x16snorm(c.x), unpack2x16snorm(c.y));
     let lock = unpack4x8snorm(d.y);
+    let above = unpack4x8unorm(d.w) * vec4f(SPRITE_MOST_DEPTH, 1.0, SPRITE_MOST_HALVINGS, 0.0);
     return SpriteInstance(
         position.xyz,
         position.w,
@@ -58,15 +63,23 @@ fn sprite_instance(number: u32) -> SpriteInstance {
         (d.x >> 24u) == 1u,
         lock.xyz,
         lock.w,
+        SPRITE_MOST_DEPTH * unpack4x8unorm(d.z),
+        above.x,
+        above.y,
+        above.z,
     );
 }
 
+// A vertex, with colours as the target has them.
 struct SpriteVaryings {
     @builtin(position) position: vec4f,
     @location(0) uv: vec2f,
     @location(1) @interpolate(flat) level: f32,
-    @location(2) light: vec4f,  // rgb: colour at a grey of one half, as the target has it; w: opacity
-    @location(3) relief: vec3f, // what a grey of one more adds
+    @location(2) light: vec4f,      // rgb: where the picture's greys are one half; w: opacity
+    @location(3) sunlit: vec3f,     // what sunlight that is as strong again adds
+    @location(4) skylit: vec3f,     // the same of skylight
+    @location(5) sun: vec4f,        // shares of it by grey, right and top above one half, and by what is clear
+    @location(6) sky: vec3f,        // the same of skylight, without the clear
 }
 
 // A cloud forms from its middle to its edge, in two stages: sprites whose centre is within half its radius, then the others.
@@ -104,14 +117,59 @@ fn sprite_axes(instance: SpriteInstance, facing: vec3f) -> mat2x3f {
     return mat2x3f(right * turn.x + up * turn.y, up * turn.x - right * turn.y);
 }
 
-fn sprite_light(instance: SpriteInstance, offset: vec3f, direction: vec3f, up: f32) -> vec3f {
+// Halvings of sunlight on its way to a sprite: between those of the three directions about the sun's, by the squares of its cosines to them.
+fn sprite_depth(instance: SpriteInstance) -> f32 {
+    let sun = uniforms.sprites.light_direction;
+    let squares = sun * sun;
+    let east_west = select(instance.sides.z, instance.sides.x, sun.x > 0.0);
+    let south_north = select(instance.sides.w, instance.sides.y, sun.z > 0.0);
+    return dot(squares, vec3f(east_west, instance.above, south_north));
+}
+
+// What a sprite shows, as radiance.
+struct SpriteShade {
+    sunlit: vec3f,
+    skylit: vec3f,
+    sun: vec4f, // see SpriteVaryings
+    sky: vec3f,
+}
+
+// Light once and many times scattered, with what of it the sides of the picture take: docs/clouds.md.
+fn sprite_scattered(instance: SpriteInstance, axes: mat2x3f, facing: vec3f, offset: vec3f, direction: vec3f) -> SpriteShade {
+    let own = uniforms.sprites;
+    let sun = own.light_direction;
+    // What is seen is the near side of a body.
+    let radius = max(instance.half_size.x, instance.half_size.y);
+    let surface = offset + (SPRITE_BULGE * radius) * facing;
+    let depth = own.thickness * max(sprite_depth(instance) - instance.halvings_m * dot(surface, sun), 0.0);
+    let cosine = dot(direction, sun);
+    let root = inverseSqrt(CLOUD_FORWARD.y - CLOUD_FORWARD.z * cosine);
+    let phase = min(CLOUD_FORWARD.x * root * root * root + CLOUD_BACKWARD.x - CLOUD_BACKWARD.y * cosine, CLOUD_BRIGHTEST);
+    let through = exp2(-depth);
+    let many = CLOUD_MULTIPLE.x * exp2(-CLOUD_MULTIPLE.y * depth);
+    let sunlit = many + (CLOUD_SINGLE.x + SPRITE_PHASE * phase) * through;
+    let skylit = min(instance.sky * exp2(0.5 * instance.halvings_m * surface.y), 1.0);
+    let towards = vec3f(dot(axes[0], sun), dot(axes[1], sun), dot(facing, sun));
+    let up = vec3f(axes[0].y, axes[1].y, facing.y);
+    let front = mix(SPRITE_FRONT, 1.0, max(towards.z, 0.0));
+    let rim = CLOUD_SINGLE.y * max(-towards.z, 0.0) * phase * through;
+    return SpriteShade(
+        sunlit * own.light,
+        (SPRITE_LEAST_SKY + (1.0 - SPRITE_LEAST_SKY) * skylit) * own.ambient,
+        own.relief * vec4f(front, SPRITE_SIDES * towards.x, SPRITE_SIDES * towards.y, rim / max(sunlit, 1e-3)),
+        own.relief * vec3f(SPRITE_FRONT, SPRITE_SIDES * up.x, SPRITE_SIDES * up.y),
+    );
+}
+
+// The article's light, to which the grey is added.
+fn sprite_article(instance: SpriteInstance, offset: vec3f, up: f32) -> SpriteShade {
     let own = uniforms.sprites;
     let share = mix(instance.heights.x, instance.heights.y, up);
     let ambient = mix(instance.low.rgb, instance.high.rgb, up) * own.ambient * (1.0 - own.dark_base * (1.0 - share));
     let from_group = instance.from_group + offset;
     let towards = dot(from_group, own.light_direction) / max(length(from_group), 1.0);
     let sun = own.light * mix(own.least, own.most, 0.5 + 0.5 * towards);
-    return ambient + sun * mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
+    return SpriteShade(sun, ambient, vec4f(own.relief, 0.0, 0.0, 0.0), vec3f(own.relief, 0.0, 0.0));
 }
 
 fn sprite_flash(place: vec3f) -> vec3f {
@@ -136,6 +194,7 @@ fn sprite_corner(cell: u32, corner: u32) -> vec2f {
     return vec2f(sprite_outline(cell, select(4u, 0u, right)).x, sprite_outline(cell, select(5u, 1u, up)).y);
 }
 
+// A vertex, with colours as radiance.
 fn sprite_vertex(index: u32) -> SpriteVaryings {
     let instance = sprite_instance(index >> sprite_block.vertices_log2);
     let own = uniforms.sprites;
@@ -160,7 +219,7 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     let amount = sprite_amount(instance.cloud);
     opacity *= sprite_block.opacity * own.opacity;
     if opacity * amount <= 0.0 {
-        return SpriteVaryings(vec4f(0.0, 0.0, 0.0, -1.0), vec2f(0.0), 0.0, vec4f(0.0), vec3f(0.0));
+        return SpriteVaryings(vec4f(0.0, 0.0, 0.0, -1.0), vec2f(0.0), 0.0, vec4f(0.0), vec3f(0.0), vec3f(0.0), vec4f(0.0), vec3f(0.0));
     }
 
     let corner = sprite_corner(instance.cell, index & ((1u << sprite_block.vertices_log2) - 1u));
@@ -174,9 +233,15 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     let places = vec2f(length(instance.from_cloud + offset), length(instance.from_cloud)) / instance.cloud_radius;
     let formed = sprite_formed(amount, places.x, places.y);
     opacity *= formed * mix(instance.low.a, instance.high.a, up);
-    let light = sprite_light(instance, offset, direction, up);
+    var shade = sprite_article(instance, offset, up);
+    if SCATTERED {
+        shade = sprite_scattered(instance, axes, facing, offset, direction);
+    }
     let clearness = sprite_clearness(place, away) * rim;
-    let seen = (light + sprite_flash(place)) * clearness + sky_radiance(direction) * (1.0 - clearness);
+    let tint = clearness * mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
+    let sunlit = shade.sunlit * tint;
+    let skylit = shade.skylit * select(vec3f(clearness), tint, SCATTERED);
+    let seen = sunlit + skylit + sprite_flash(place) * clearness + sky_radiance(direction) * (1.0 - clearness);
 
     let clip = vec4f(
         dot(place, sprite_view.clip_x.xyz),
@@ -190,22 +255,19 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     // Far away a whole level: between two, every texel of every sprite would cost two reads.
     let fine = max(log2(max(texels_a_pixel, 1e-6)), 0.0);
     let level = select(fine, round(fine), sprite_block.vertices_log2 == 2u);
-    return SpriteVaryings(clip, uv, level, vec4f(seen, opacity), light * (clearness * own.relief));
+    return SpriteVaryings(clip, uv, level, vec4f(seen, opacity), sunlit, skylit, shade.sun, shade.sky);
 }
 
-// Radiance at a grey of one quarter and of three quarters.
-fn sprite_dark(linear: SpriteVaryings) -> vec3f {
-    return max(linear.light.rgb - 0.25 * linear.relief, vec3f(0.0));
-}
+// The share of more light at which the tone curve is met again: greys are about one half.
+const SPRITE_STEP = 0.25;
 
-fn sprite_bright(linear: SpriteVaryings) -> vec3f {
-    return linear.light.rgb + 0.25 * linear.relief;
-}
-
-// With colours in place of both.
-fn sprite_between(linear: SpriteVaryings, dark: vec3f, bright: vec3f) -> SpriteVaryings {
-    let light = vec4f(0.5 * (dark + bright), linear.light.w);
-    return SpriteVaryings(linear.position, linear.uv, linear.level, light, 2.0 * (bright - dark));
+// With the target's colours: of the vertex's light, and of what more sunlight and more skylight make of it.
+fn sprite_shown(linear: SpriteVaryings, light: vec3f, sunlit: vec3f, skylit: vec3f) -> SpriteVaryings {
+    var shown = linear;
+    shown.light = vec4f(light, linear.light.w);
+    shown.sunlit = (sunlit - light) / SPRITE_STEP;
+    shown.skylit = (skylit - light) / SPRITE_STEP;
+    return shown;
 }
 
 // The tone curve is taken at the vertices and is straight between two greys: sprites overlap by the dozen, and arithmetic for each texel
@@ -213,20 +275,30 @@ fn sprite_between(linear: SpriteVaryings, dark: vec3f, bright: vec3f) -> SpriteV
 @vertex
 fn vs_sprite(@builtin(vertex_index) index: u32) -> SpriteVaryings {
     let linear = sprite_vertex(index);
-    return sprite_between(linear, display_colour(sprite_dark(linear)), display_colour(sprite_bright(linear)));
+    let light = linear.light.rgb;
+    let sunlit = display_colour(light + SPRITE_STEP * linear.sunlit);
+    let skylit = display_colour(light + SPRITE_STEP * linear.skylit);
+    return sprite_shown(linear, display_colour(light), sunlit, skylit);
 }
 
 // The same for a picture of the ring.
 @vertex
 fn vs_ring_sprite(@builtin(vertex_index) index: u32) -> SpriteVaryings {
     let linear = sprite_vertex(index);
-    return sprite_between(linear, ring_stored(sprite_dark(linear)), ring_stored(sprite_bright(linear)));
+    let light = linear.light.rgb;
+    let sunlit = ring_stored(light + SPRITE_STEP * linear.sunlit);
+    let skylit = ring_stored(light + SPRITE_STEP * linear.skylit);
+    return sprite_shown(linear, ring_stored(light), sunlit, skylit);
 }
 
 @fragment
 fn fs_sprite(in: SpriteVaryings) -> @location(0) vec4f {
     let texel = textureSampleLevel(sheet_texture, clamp_sampler, in.uv, in.level);
-    return vec4f(max(in.light.rgb + (texel.r - 0.5) * in.relief, vec3f(0.0)), 1.0) * (texel.g * in.light.w);
+    let greys = texel.rba - 0.5;
+    let sun = dot(vec4f(greys, 1.0 - texel.g), in.sun);
+    let sky = dot(greys, in.sky);
+    let colour = in.light.rgb + sun * in.sunlit + sky * in.skylit;
+    return vec4f(max(colour, vec3f(0.0)), 1.0) * (texel.g * in.light.w);
 }
 
 // The dome behind the sprites, if no other method's is: clear but for the thin upper layer of the packed method.

@@ -1,7 +1,7 @@
 //! Faults of the field of clouds.
 
 use super::*;
-use crate::field::{Field, bounds};
+use crate::field::{Exposure, Field, bounds};
 use crate::test_field::field;
 
 /// A pack whose field was changed, with true hashes.
@@ -124,4 +124,17 @@ fn clouds_without_light_are_told() {
         }
     });
     assert_only("field-light", &dark);
+}
+
+#[test]
+fn light_that_is_not_what_the_clouds_leave_is_an_error() {
+    for change in [
+        |own: &mut Exposure| own.above = own.above.wrapping_add(40),
+        |own: &mut Exposure| own.sky = own.sky.wrapping_add(40),
+        |own: &mut Exposure| own.sides[2] = own.sides[2].wrapping_add(40),
+        |own: &mut Exposure| own.halvings = own.halvings.wrapping_add(40),
+    ] {
+        let forged = with_field(|f| change(&mut f.clouds[3].sprites[2].exposure));
+        assert_only("field-exposure", &forged);
+    }
 }

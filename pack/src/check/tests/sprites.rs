@@ -49,7 +49,7 @@ fn an_opaque_texel_on_a_border_is_an_error_on_every_level() {
         ] {
             let bleeding = with_texture(Role::Sprites, |t| {
                 let width = 4 * cell;
-                t.levels[level][2 * (y * width + x) + 1] = 1;
+                t.levels[level][4 * (y * width + x) + 1] = 1;
             });
             assert_only("sprite-border", &bleeding);
         }
@@ -59,13 +59,13 @@ fn an_opaque_texel_on_a_border_is_an_error_on_every_level() {
 #[test]
 fn a_level_that_is_not_the_mean_is_an_error() {
     for level in 1..3 {
-        for channel in [0, 1] {
+        for channel in [0, 1, 2, 3] {
             // In the middle of the last puff, where alpha is high and grey anything.
             let middle = (128_usize >> level) * (112 >> level) + (112 >> level);
             let changed = with_texture(Role::Sprites, |t| {
                 change_level(t, level, |i, texel| {
                     if i == middle {
-                        texel[channel] = if channel == 0 { 255 } else { texel[1] - 2 };
+                        texel[channel] = if channel == 1 { texel[1] - 2 } else { 255 };
                     }
                 });
             });
@@ -110,8 +110,10 @@ fn an_empty_or_a_full_cell_is_an_error() {
 
 #[test]
 fn what_a_kind_asks_is_a_warning() {
-    let bright = with_kind(SheetKind::Wispy, |_, _, t| t[0] += 0.1);
-    assert_eq!(warnings(&bright), ["sprite-grey"]);
+    for channel in [0, 2, 3] {
+        let bright = with_kind(SheetKind::Wispy, |_, _, t| t[channel] += 0.1);
+        assert_eq!(warnings(&bright), ["sprite-grey"]);
+    }
     for kind in [SheetKind::Puffy, SheetKind::FlatBottomed] {
         let thin = with_kind(kind, |_, _, t| t[1] *= 0.8);
         assert_eq!(warnings(&thin), ["sprite-core"]);

@@ -1,6 +1,8 @@
 //! Attributes of instances: accessors resolved to numbers, every offset looked at before it is used.
 
-use super::document::{Accessor, Document, FLOAT, INSTANCING, SHORT, SPRITES, UNSIGNED_SHORT};
+use super::document::{
+    Accessor, Document, FLOAT, INSTANCING, SHORT, SPRITES, UNSIGNED_BYTE, UNSIGNED_SHORT,
+};
 use crate::error::PackError;
 use crate::limits::{MAX_BOXES, MAX_SPRITES};
 
@@ -90,6 +92,11 @@ impl<'a> Instances<'a> {
         })
     }
 
+    /// Four bytes an instance, in 255ths of a unit.
+    pub fn bytes(&self, name: &str) -> Result<Vec<[u8; 4]>, PackError> {
+        self.read(name, "VEC4", UNSIGNED_BYTE, |bytes: &[u8; 4]| *bytes)
+    }
+
     fn accessor(&self, name: &str) -> Result<&'a Accessor, PackError> {
         let index = self.attributes.get(name);
         let accessor = index.and_then(|i| self.document.accessors.get(*i));
@@ -108,7 +115,7 @@ impl<'a> Instances<'a> {
         parse: impl Fn(&[u8; SIZE]) -> T,
     ) -> Result<Vec<T>, PackError> {
         let accessor = self.accessor(name)?;
-        let normalized = component == SHORT;
+        let normalized = is_normalized(component);
         let laid_out = (accessor.kind.as_str(), accessor.component_type) == (kind, component);
         if !laid_out || accessor.normalized != normalized || accessor.sparse.is_some() {
             let found = format!("{} of {}", accessor.kind, accessor.component_type);
@@ -145,10 +152,11 @@ impl<'a> Instances<'a> {
         let bytes = slice(self.bin, view.byte_offset, Some(view.byte_length));
         let bytes = bytes.and_then(|bytes| slice(bytes, accessor.byte_offset, None));
         let stride = view.byte_stride.unwrap_or(size);
-        let unit = if accessor.component_type == FLOAT {
-            4
-        } else {
-            2
+        // What begins an attribute is at a multiple of four in any file of glTF; of its component is what matters here.
+        let unit = match accessor.component_type {
+            FLOAT => 4,
+            UNSIGNED_BYTE => 1,
+            _ => 2,
         };
         match bytes {
             // So that elements do not overlap, and a few bytes cannot claim to be many sprites.
@@ -175,6 +183,11 @@ impl<'a> Instances<'a> {
     fn error(&self, name: &str, found: impl ToString, expected: impl ToString) -> PackError {
         PackError::value(self.file, &format!("{}.{name}", self.node), found, expected)
     }
+}
+
+/// Whether its numbers are steps of a unit.
+pub(super) fn is_normalized(component: u32) -> bool {
+    matches!(component, SHORT | UNSIGNED_BYTE)
 }
 
 /// `length` bytes from `start`, or all that follow.

@@ -17,6 +17,7 @@ pub(super) const SPRITES: &str = "sprites";
 pub(super) const BOXES: &str = "boxes";
 
 /// Component types of accessors.
+pub(super) const UNSIGNED_BYTE: u32 = 5121;
 pub(super) const SHORT: u32 = 5122;
 pub(super) const UNSIGNED_SHORT: u32 = 5123;
 pub(super) const FLOAT: u32 = 5126;

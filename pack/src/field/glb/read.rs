@@ -6,7 +6,7 @@ use super::document::{BOXES, CloudExtras, Document, FieldExtras, HourExtras, INS
 use super::rotation::rotation;
 use crate::error::PackError;
 use crate::field::{
-    Category, Cloud, CloudBox, CloudKind, ColourLevel, Field, Hour, Sprite, bounds,
+    Category, Cloud, CloudBox, CloudKind, ColourLevel, Exposure, Field, Hour, Sprite, bounds,
 };
 use crate::limits::{MAX_CLOUDS, MAX_GROUPS, MAX_HOURS};
 
@@ -208,6 +208,8 @@ fn add_sprites(file: &str, sprites: &Instances, clouds: &mut [Cloud]) -> Result<
     let groups = sprites.numbers("_GROUP")?;
     let owners = sprites.numbers("_CLOUD")?;
     let boxes = sprites.numbers("_BOX")?;
+    let sun = sprites.bytes("_SUN")?;
+    let sky = sprites.bytes("_SKY")?;
     for i in 0..sprites.count {
         let bad = |name: &str, found: String, expected: &str| {
             Err(PackError::value(
@@ -244,6 +246,12 @@ fn add_sprites(file: &str, sprites: &Instances, clouds: &mut [Cloud]) -> Result<
             rotation_rad,
             cell,
             cloud_box: boxes[i],
+            exposure: Exposure {
+                sides: sun[i],
+                above: sky[i][0],
+                sky: sky[i][1],
+                halvings: sky[i][2],
+            },
         });
     }
     Ok(())

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use super::accessor::is_normalized;
 use super::container;
 use super::document::{
     Accessor, Asset, BOXES, Buffer, BufferView, CloudExtras, Document, Extensions, Extras, FLOAT,
     FieldExtras, HourExtras, INSTANCING, Instancing, Material, Mesh, Node, Primitive, SHORT,
-    SPRITES, Scene, Surface, UNSIGNED_SHORT,
+    SPRITES, Scene, Surface, UNSIGNED_BYTE, UNSIGNED_SHORT,
 };
 use super::rotation::quaternion;
 use crate::error::PackError;
@@ -34,7 +35,7 @@ const CUBE_TRIANGLES: [u16; 36] = [
 /// Attributes of a record: name, type, component type, where it begins.
 type Layout = &'static [(&'static str, &'static str, u32, u64)];
 
-const SPRITE_BYTES: u64 = 40;
+const SPRITE_BYTES: u64 = 48;
 const SPRITE_LAYOUT: Layout = &[
     ("TRANSLATION", "VEC3", FLOAT, 0),
     ("SCALE", "VEC3", FLOAT, 12),
@@ -43,6 +44,8 @@ const SPRITE_LAYOUT: Layout = &[
     ("_GROUP", "SCALAR", UNSIGNED_SHORT, 34),
     ("_CLOUD", "SCALAR", UNSIGNED_SHORT, 36),
     ("_BOX", "SCALAR", UNSIGNED_SHORT, 38),
+    ("_SUN", "VEC4", UNSIGNED_BYTE, 40),
+    ("_SKY", "VEC4", UNSIGNED_BYTE, 44),
 ];
 
 /// The last two bytes of a box are empty: records begin at multiples of four.
@@ -124,7 +127,7 @@ impl Parts {
             buffer_view: Some(self.views.len() - 1),
             byte_offset,
             component_type,
-            normalized: component_type == SHORT,
+            normalized: is_normalized(component_type),
             count,
             kind: kind.to_string(),
             min: None,
@@ -280,6 +283,9 @@ fn sprite_records(field: &Field) -> Vec<u8> {
                 sprite.cloud_box,
             ];
             numbers.iter().for_each(|n| bytes.extend(n.to_le_bytes()));
+            let own = sprite.exposure;
+            bytes.extend(own.sides);
+            bytes.extend([own.above, own.sky, own.halvings, 0]);
         }
     }
     bytes

@@ -3,18 +3,19 @@
 use std::sync::OnceLock;
 
 use welkin_pack::field::{
-    COLOUR_LEVELS, Category, Cloud, CloudBox, CloudKind, ColourLevel, Hour, Sprite,
+    COLOUR_LEVELS, Category, Cloud, CloudBox, CloudKind, ColourLevel, Exposure, Hour, Sprite,
 };
 use welkin_pack::{Field, Pack};
 use welkin_tests::pack::default_pack;
 
 /// The default pack with another field.
 pub fn with(clouds: Vec<Cloud>) -> Pack {
-    let field = Field {
+    let mut field = Field {
         sections: 2,
         hours: vec![hour(0.0, 0.1), hour(0.4, 1.0), hour(0.7, 0.8)],
         clouds,
     };
+    field.expose();
     let pack = default_pack().clone();
     pack.with_field(field).expect("the field is sound")
 }
@@ -73,6 +74,7 @@ pub fn heap(centre_m: [f32; 3], rank: f32) -> Cloud {
             rotation_rad: 0.4 * t,
             cell: i + i / 4,
             cloud_box: u16::from(i >= 6),
+            exposure: Exposure::default(),
         }
     });
     Cloud {
@@ -101,6 +103,7 @@ fn sheet() -> Cloud {
         rotation_rad: 0.3 * f32::from(i),
         cell: 4 + i,
         cloud_box: 0,
+        exposure: Exposure::default(),
     });
     Cloud {
         kind: CloudKind::Cirrus,

@@ -8,7 +8,7 @@ use welkin_runtime::internals::sprites::instances::{Instance, sections};
 use welkin_runtime::internals::sprites::outline::{BOXES_BEYOND_M, outlines};
 use welkin_runtime::internals::sprites::pipelines::SpriteBlock;
 use welkin_runtime::internals::sprites::station::SpriteView;
-use welkin_runtime::params::{Lightning, SkyModel, SpriteParams};
+use welkin_runtime::params::{Lightning, Shading, SkyModel, SpriteParams};
 use welkin_runtime::{Camera, SkyParams};
 use welkin_tests::renderer::{FILTER_STEP, Frame, Twin};
 use welkin_tests::sprites::{Inputs, Placed, along, placed};
@@ -67,7 +67,7 @@ fn picture(frame: &Frame, inputs: &Inputs, sprites: &[Placed], off: [f32; 2]) ->
             let mut colour = behind.next().unwrap();
             for sprite in sprites {
                 if let Some((radiance, alpha)) = along(inputs, sprite, ray) {
-                    let relief = sprite.corners[0].1.relief * off[0];
+                    let relief = sprite.corners[0].1.relief() * off[0];
                     let alpha = if alpha > 0.0 {
                         (alpha + off[1]).clamp(0.0, 1.0)
                     } else {
@@ -117,6 +117,14 @@ fn cases() -> Vec<(&'static str, SkyParams, Camera)> {
         time: 0.95,
         ..defaults
     };
+    let paper = SkyParams {
+        shading: Shading::Paper,
+        ..defaults
+    };
+    let paper_sunset = SkyParams {
+        shading: Shading::Paper,
+        ..sunset
+    };
     let mut stormy = SkyParams {
         time: 0.8,
         ..defaults
@@ -137,6 +145,8 @@ fn cases() -> Vec<(&'static str, SkyParams, Camera)> {
         ("sunset", sunset, ground),
         ("perez", perez, ground),
         ("night", night, ground),
+        ("paper", paper, ground),
+        ("paper at sunset", paper_sunset, ground),
         ("lightning", stormy, ground),
     ]
 }
@@ -170,6 +180,7 @@ fn radiance_of_sprites_agrees_in_a_float_target() {
             sky: &frame.sky,
             sheet: &sheet,
             outlines: &outlines,
+            shading: params.shading,
         };
         let lifted = camera.position_m.as_dvec3();
         let sprites = stand(&inputs, &params, lifted, 0.0);
