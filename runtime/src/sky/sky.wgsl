@@ -8,7 +8,7 @@ fn behind_clouds(direction: vec3f, pixel: vec2f, clear: f32) -> vec3f {
         let night = galaxy * uniforms.galaxy.radiance + star_radiance(dome, direction, pixel, galaxy);
         radiance += night * smoothstep(0.0, EXTINCTION, direction.y);
     }
-    radiance += sun_radiance(direction) * (clear * clear);
+    radiance = sun_added(radiance, direction, clear * clear);
     if SKYBOX {
         radiance = skybox_mix(radiance, direction);
     }
