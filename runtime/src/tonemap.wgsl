@@ -30,10 +30,9 @@ fn srgb_encode(linear: vec3f) -> vec3f {
 }
 
 // Interleaved gradient noise, -0.5..0.5: J. Jimenez, "Next Generation Post Processing in Call of Duty:
-// Advanced Warfare", SIGGRAPH 2014. `pixel` is the middle of a pixel: a half less is its number.
+// Advanced Warfare", SIGGRAPH 2014. `pixel` is the middle of a pixel: a half less is its number, without rounding.
 fn dither_noise(pixel: vec2f) -> f32 {
-    let place = pixel.x * 0.06711056 + (pixel.y * 0.00583715 - 0.5 * (0.06711056 + 0.00583715));
-    return fract(52.9829189 * fract(place)) - 0.5;
+    return fract(52.9829189 * fract(dot(pixel - 0.5, vec2f(0.06711056, 0.00583715)))) - 0.5;
 }
 
 // As the target has it, without dither: what a frame or a vertex has of one colour can be told once.

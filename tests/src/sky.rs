@@ -6,6 +6,7 @@ use welkin_pack::role::Wrap;
 use welkin_runtime::SkyParams;
 use welkin_runtime::internals::clear_sky::ground::{BACKSCATTER, MOTTLING};
 use welkin_runtime::internals::clear_sky::picture::BEND;
+use welkin_runtime::internals::clear_sky::table::{AUREOLE_END, AUREOLE_LEAST};
 use welkin_runtime::internals::frame::Uniforms;
 use welkin_runtime::internals::pack_data::PackData;
 
@@ -38,7 +39,7 @@ pub fn radiance(uniforms: &Uniforms, texture: &Texture, clouds: &Texture, direct
     let noise = clouds.sample(uv.to_array(), ground.lod + 2.0 * libm::log2f(away))[2];
     let facing = 1.0 - BACKSCATTER * direction.dot(sky.sun_direction);
     let lit = ground.skylit + ground.sunlit * (facing / (ground.sun_sin - direction.y));
-    let radiance = lit * (1.0 + MOTTLING * (noise - ground.noise_mean));
+    let radiance = lit * (ground.plain + MOTTLING * noise);
     let through = Vec3::from((-ground.depth * away).to_array().map(libm::exp2f));
     light + (radiance - light) * through
 }
@@ -67,5 +68,9 @@ fn aureole(cosine: f32) -> f32 {
         let base = 1.0 + g * g - 2.0 * g * f64::from(cosine);
         weight * (1.0 - g * g) / (4.0 * std::f64::consts::PI * base * libm::sqrt(base))
     };
-    AUREOLE_LOBES.map(lobe).iter().sum::<f64>() as f32
+    let [narrow, wide] = AUREOLE_LOBES.map(lobe);
+    match cosine > AUREOLE_END {
+        true => (wide + narrow) as f32 - AUREOLE_LEAST,
+        false => wide as f32,
+    }
 }

@@ -12,6 +12,6 @@ fn ground_seen(horizon: vec3f, direction: vec3f) -> vec3f {
     let noise = textureSampleLevel(clouds_texture, repeat_sampler, uv, ground.lod - 2.0 * log2(down)).b;
     let facing = 1.0 - GROUND_BACKSCATTER * dot(direction, uniforms.sky.sun_direction);
     let lit = ground.skylit + ground.sunlit * (facing * (both * down));
-    let radiance = lit * (1.0 + GROUND_MOTTLING * (noise - ground.noise_mean));
+    let radiance = lit * (ground.plain + GROUND_MOTTLING * noise);
     return mix(horizon, radiance, exp2(-ground.depth * away));
 }

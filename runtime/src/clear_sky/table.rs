@@ -15,7 +15,7 @@
 //! of it there is, as the alpha of the radiance. Both are in one picture ([`crate::clear_sky::picture`]).
 //!
 //! A view is some 30 microseconds of one core and its picture some 60, with 26 KB to upload, when hour or haze change; a pixel reads it twice and takes
-//! a root and two reciprocal ones.
+//! a root and a reciprocal one, near the sun two.
 
 use glam::{Vec2, Vec3};
 use half::f16;
@@ -33,6 +33,8 @@ use crate::geometry::uniforms::uniforms;
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[
+        ("AUREOLE_END", Value::F32(AUREOLE_END)),
+        ("AUREOLE_LEAST", Value::F32(AUREOLE_LEAST)),
         ("AUREOLE_WIDE", Value::Vec2(lobe(AUREOLE_LOBES[1]))),
         ("SKY_BEND", Value::F32(BEND)),
         ("AUREOLE_NARROW", Value::Vec2(lobe(AUREOLE_LOBES[0]))),
@@ -65,6 +67,11 @@ uniforms! {
     }
 }
 
+/// Cosine of 25 degrees from the sun, where the narrow lobe ends in the shader: there it is a thousandth of the wide one.
+pub const AUREOLE_END: f32 = 0.906_307_8;
+/// Its value there, which is taken off it so that it ends without an edge.
+pub const AUREOLE_LEAST: f32 = 4.197e-4;
+
 /// The earth's radius over that of the layer of airglow, 90 km higher.
 const AIRGLOW_RADII: f32 = 6371.0 / 6461.0;
 /// Optical depth of air as eyes see at night.
@@ -85,7 +92,7 @@ const fn lobe([weight, g]: [f32; 2]) -> [f32; 2] {
     [factor * (1.0 + g * g), factor * 2.0 * g]
 }
 
-/// The phase function of a lobe of the aureole, 0 the narrow one, 1 the wide one: as the shader has it.
+/// The phase function of a lobe of the aureole, 0 the narrow one, 1 the wide one: as the shader has them before the narrow one ends.
 pub fn aureole_lobe(index: usize, cosine: f32) -> f32 {
     const LOBES: [[f32; 2]; 2] = [lobe(AUREOLE_LOBES[0]), lobe(AUREOLE_LOBES[1])];
     let [a, b] = LOBES[index];

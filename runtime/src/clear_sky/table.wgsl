@@ -8,17 +8,20 @@ fn aureole_lobe(lobe: vec2f, cosine: f32) -> f32 {
 
 // The clear sky along a unit direction; from below the horizon, that of the horizon.
 fn table_light(direction: vec3f) -> vec3f {
-    var sideways = dot(direction.xz, uniforms.clouds.sun_azimuth);
-    if direction.y < 0.0 {
-        sideways *= inverseSqrt(max(dot(direction.xz, direction.xz), 1e-12));
+    var place = vec2f(dot(direction.xz, uniforms.clouds.sun_azimuth), 0.0);
+    if direction.y > 0.0 {
+        place.y = sqrt(direction.y) * (1.0 + SKY_BEND * direction.y);
+    } else {
+        place.x *= inverseSqrt(max(dot(direction.xz, direction.xz), 1e-12));
     }
-    let up = clamp(direction.y, 0.0, 1.0);
-    let place = vec2f(sideways, sqrt(up) * (1.0 + SKY_BEND * up));
     let uv = uniforms.sky.start + uniforms.sky.span * place;
     let sky = textureSampleLevel(sky_texture, clamp_sampler, uv, 0.0);
     let colour = textureSampleLevel(sky_texture, clamp_sampler, vec2f(uniforms.sky.aureole_u, uv.y), 0.0).rgb;
     let cosine = dot(direction, uniforms.sky.sun_direction);
-    let phase = aureole_lobe(AUREOLE_WIDE, cosine) + aureole_lobe(AUREOLE_NARROW, cosine);
+    var phase = aureole_lobe(AUREOLE_WIDE, cosine);
+    if cosine > AUREOLE_END {
+        phase += aureole_lobe(AUREOLE_NARROW, cosine) - AUREOLE_LEAST;
+    }
     return sky.rgb + colour * (sky.a * phase);
 }
 

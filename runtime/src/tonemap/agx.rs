@@ -13,8 +13,8 @@
 //!
 //! Of Wrensch's looks there is one, [`punchy`]: its power makes middle grey 0.8 stops darker than AgX alone, which exposure has to make up for.
 //!
-//! The sigmoid with the look's power is one polynomial, [`CONTRAST`]: it is off by 0.22 of a byte at most, which saturation makes 0.48.
-//! Saturation and the inverse of the inset are one matrix: a factor on the channel itself, and the same weighted grey for all.
+//! Powers are polynomials, since a GPU has few of its slow functions at once: of them the logarithm alone is left. [`CONTRAST`], the sigmoid with the
+//! look's power, is off by 0.22 of a byte at most, [`DISPLAY`] by 0.15, and both with the look's saturation between them by 0.6. Saturation and the inverse of the inset are one matrix: a factor on the channel itself, and the same weighted grey for all.
 //!
 //! # Practice
 //! Blue does not turn violet as it fades: colours turn towards cyan by as much as the eye turns them towards violet. Without a look a sky
@@ -42,11 +42,20 @@ pub const SIGMOID: [f32; 7] = [
     0.119_226_1,
     -0.002_330_625,
 ];
-/// What logarithms are taken of at least, as none is known of 0: black at every exposure.
+/// What is added before the logarithm, as none is known of 0: black at every exposure.
 pub const BLACK: f32 = 1e-30;
 
 /// The power that AgX encodes with.
 pub const GAMMA: f32 = 2.2;
+/// It as `x^2` times a polynomial, from the fourth power down to the constant: the least greatest error of the encoded colour.
+pub const DISPLAY: [f32; 5] = [
+    -0.924_013_3,
+    2.569_847_8,
+    -2.738_732_3,
+    1.598_779_6,
+    0.492_827_83,
+];
+
 /// Wrensch's look "Punchy": the power that his encoded colours are raised to.
 pub const PUNCHY_POWER: f32 = 1.35;
 /// The sigmoid raised to it, as `x^2` times a polynomial, from the fifth power down to the constant: the least greatest error.
@@ -91,20 +100,25 @@ pub fn punchy(radiance: Vec3) -> Vec3 {
 
 /// Where inset radiance lies between the first stop and the last, each 0..1.
 fn shares(radiance: Vec3) -> Vec3 {
-    let inset = (1.0 - INSET) * radiance + radiance.dot(INSET * WEIGHTS);
-    let stops = inset.max(Vec3::splat(BLACK)).map(f32::log2);
+    let inset = (1.0 - INSET) * radiance + (radiance.dot(INSET * WEIGHTS) + BLACK);
+    let stops = inset.map(f32::log2);
     ((stops - FIRST) / STOPS).clamp(Vec3::ZERO, Vec3::ONE)
 }
 
 /// Undoes inset and power.
 fn display(encoded: Vec3, (own, weights): (f32, Vec3)) -> Vec3 {
     let shown = own * encoded + encoded.dot(weights);
-    shown.clamp(Vec3::ZERO, Vec3::ONE).map(|x| x.powf(GAMMA))
+    shown.clamp(Vec3::ZERO, Vec3::ONE).map(powered)
 }
 
 /// The sigmoid with the look's power, of the share of the stops.
 pub fn contrast(share: f32) -> f32 {
     share * share * polynomial(&CONTRAST, share)
+}
+
+/// An encoded colour, 0..1, to the power of [`GAMMA`].
+pub fn powered(shown: f32) -> f32 {
+    shown * shown * polynomial(&DISPLAY, shown)
 }
 
 /// The sigmoid of the share of the stops, 0..1.

@@ -1,9 +1,10 @@
 // AgX. Theory: agx.rs.
 
 // Where inset radiance, exposed by so many stops, lies between the first stop and the last.
-fn agx_shares(radiance: vec3f) -> vec3f {
-    let inset = (1.0 - AGX_INSET) * radiance + dot(radiance, AGX_INSET * AGX_WEIGHTS);
-    let stops = log2(max(inset, vec3f(AGX_BLACK)));
+fn agx_shares(unbounded: vec3f) -> vec3f {
+    let radiance = max(unbounded, vec3f(0.0));
+    // What is added keeps the logarithm from 0.
+    let stops = log2((1.0 - AGX_INSET) * radiance + (dot(radiance, AGX_INSET * AGX_WEIGHTS) + AGX_BLACK));
     return clamp(stops * (1.0 / AGX_STOPS) + uniforms.tonemap.agx_start, vec3f(0.0), vec3f(1.0));
 }
 
@@ -32,7 +33,13 @@ fn agx_contrasted(x: vec3f) -> vec3f {
 // Undoes inset and power, a step of the encoding away.
 fn agx_display(encoded: vec3f, own: f32, weights: vec3f, step: f32) -> vec3f {
     let outset = own * encoded + (dot(encoded, weights) + step);
-    return pow(clamp(outset, vec3f(0.0), vec3f(1.0)), vec3f(AGX_GAMMA));
+    let x = clamp(outset, vec3f(0.0), vec3f(1.0));
+    var sum = vec3f(AGX_POWER_X6);
+    sum = sum * x + AGX_POWER_X5;
+    sum = sum * x + AGX_POWER_X4;
+    sum = sum * x + AGX_POWER_X3;
+    sum = sum * x + AGX_POWER_X2;
+    return sum * (x * x);
 }
 
 fn tonemap_agx(radiance: vec3f, step: f32) -> vec3f {
