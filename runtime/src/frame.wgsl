@@ -3,6 +3,8 @@
 // What a frame needs is compiled in, since some devices run both sides of a branch (device/pipeline.rs).
 override NIGHT: bool = true;
 override UPPER_LAYER: bool = true;
+// Whether the sky is the dome's mesh and not a triangle over the screen.
+override DOME_MESH: bool = false;
 
 @group(0) @binding(0) var<uniform> uniforms: Uniforms;
 @group(0) @binding(1) var repeat_sampler: sampler;

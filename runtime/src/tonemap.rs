@@ -6,7 +6,7 @@
 //!
 //! # Changes versus the paper
 //! The paper writes display-referred colours. Dither is ours: half a step of noise, so that an 8-bit
-//! target shows no bands.
+//! target shows no bands. AgX has it before its last power, which is nearly the target's own: a step is a step there.
 //!
 //! # Practice
 //! A float target gets raw radiance, and none of this. The curve is a branch over a uniform: all pixels of a frame take the same side, so a
@@ -35,7 +35,6 @@ pub const PART: Part = Part {
         ("NEUTRAL_FADING", Value::F32(neutral::FADING)),
         ("AGX_INSET", Value::F32(agx::INSET)),
         ("AGX_WEIGHTS", Value::Vec3(agx::WEIGHTS)),
-        ("AGX_FIRST", Value::F32(agx::FIRST)),
         ("AGX_STOPS", Value::F32(agx::STOPS)),
         ("AGX_X6", Value::F32(agx::SIGMOID[0])),
         ("AGX_X5", Value::F32(agx::SIGMOID[1])),
@@ -44,10 +43,22 @@ pub const PART: Part = Part {
         ("AGX_X2", Value::F32(agx::SIGMOID[4])),
         ("AGX_X1", Value::F32(agx::SIGMOID[5])),
         ("AGX_X0", Value::F32(agx::SIGMOID[6])),
-        ("AGX_GAMMA", Value::F32(agx::GAMMA)),
+        ("AGX_PUNCHY_X7", Value::F32(agx::CONTRAST[0])),
+        ("AGX_PUNCHY_X6", Value::F32(agx::CONTRAST[1])),
+        ("AGX_PUNCHY_X5", Value::F32(agx::CONTRAST[2])),
+        ("AGX_PUNCHY_X4", Value::F32(agx::CONTRAST[3])),
+        ("AGX_PUNCHY_X3", Value::F32(agx::CONTRAST[4])),
+        ("AGX_PUNCHY_X2", Value::F32(agx::CONTRAST[5])),
+        ("AGX_POWER_X6", Value::F32(agx::DISPLAY[0])),
+        ("AGX_POWER_X5", Value::F32(agx::DISPLAY[1])),
+        ("AGX_POWER_X4", Value::F32(agx::DISPLAY[2])),
+        ("AGX_POWER_X3", Value::F32(agx::DISPLAY[3])),
+        ("AGX_POWER_X2", Value::F32(agx::DISPLAY[4])),
+        ("AGX_OUTSET", Value::F32(agx::OUTSET.0)),
+        ("AGX_OUTSET_WEIGHTS", Value::Vec3(agx::OUTSET.1)),
+        ("AGX_PUNCHY_OUTSET", Value::F32(agx::PUNCHY_OUTSET.0)),
+        ("AGX_PUNCHY_WEIGHTS", Value::Vec3(agx::PUNCHY_OUTSET.1)),
         ("AGX_BLACK", Value::F32(agx::BLACK)),
-        ("AGX_PUNCHY_POWER", Value::F32(agx::PUNCHY_POWER)),
-        ("AGX_PUNCHY_SATURATION", Value::F32(agx::PUNCHY_SATURATION)),
     ],
     structs: &[TonemapUniforms::WGSL],
     wgsl: concat!(
@@ -67,8 +78,8 @@ uniforms! {
         dither: f32,
         /// Number of the curve.
         curve: u32,
-        /// Nothing.
-        _pad: f32,
+        /// Where a radiance of 1 lies between the first stop of AgX and the last, exposed.
+        agx_start: f32,
     }
 }
 
@@ -78,7 +89,8 @@ pub fn uniforms(params: &SkyParams, step: f32) -> TonemapUniforms {
         exposure: params.exposure_factor(),
         dither: if params.dither { step } else { 0.0 },
         curve: params.tonemap as u32,
-        ..Default::default()
+        agx_start: (params.exposure_factor().max(f32::MIN_POSITIVE).log2() - agx::FIRST)
+            / agx::STOPS,
     }
 }
 

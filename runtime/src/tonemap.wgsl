@@ -1,25 +1,26 @@
 // The last step: tone curve, dither, encoding. Theory and CPU part: tonemap.rs.
 
-// Linear colour of the display, 0..1. All pixels of a frame take the same side of the branch.
-fn tone_curve(exposed: vec3f) -> vec3f {
-    let radiance = max(exposed, vec3f(0.0));
-    var colour = radiance;
-    switch uniforms.tonemap.curve {
-        case TONEMAP_NEUTRAL: {
-            colour = tonemap_neutral(radiance);
-        }
-        case TONEMAP_AGX: {
-            colour = tonemap_agx(radiance);
-        }
-        case TONEMAP_AGX_PUNCHY: {
-            colour = tonemap_agx_punchy(radiance);
-        }
-        case TONEMAP_FILMIC: {
-            colour = tonemap_filmic(radiance);
-        }
-        default: {}
+// Linear colour of the display, a step of the encoding away from 0..1. All pixels of a frame take the same side of the branch.
+fn tone_curve(radiance: vec3f, step: f32) -> vec3f {
+    // The default first: each question costs a pixel something.
+    if uniforms.tonemap.curve == TONEMAP_AGX_PUNCHY {
+        return tonemap_agx_punchy(radiance, step);
     }
-    return min(colour, vec3f(1.0));
+    if uniforms.tonemap.curve == TONEMAP_AGX {
+        return tonemap_agx(radiance, step);
+    }
+    let exposed = max(radiance, vec3f(0.0)) * uniforms.tonemap.exposure;
+    var colour = exposed;
+    if uniforms.tonemap.curve == TONEMAP_NEUTRAL {
+        colour = tonemap_neutral(exposed);
+    } else if uniforms.tonemap.curve == TONEMAP_FILMIC {
+        colour = tonemap_filmic(exposed);
+    }
+    colour = min(colour, vec3f(1.0));
+    // Around a value x a step of the encoding is as wide as its slope there, and 2 sqrt(x) is the slope of the curve's near
+    // relative, the square.
+    let root = colour * inverseSqrt(max(colour, vec3f(1e-6)));
+    return colour + step * (2.0 * root + abs(step));
 }
 
 // IEC 61966-2-1.
@@ -39,24 +40,20 @@ fn display_colour(radiance: vec3f) -> vec3f {
     if OUTPUT == OUTPUT_RADIANCE {
         return radiance;
     }
-    let display = tone_curve(radiance * uniforms.tonemap.exposure);
+    return encoded_colour(radiance, 0.0);
+}
+
+// With a step of dither. What is not encoded here the hardware encodes.
+fn encoded_colour(radiance: vec3f, step: f32) -> vec3f {
     if OUTPUT == OUTPUT_ENCODED {
-        return srgb_encode(display);
+        return srgb_encode(tone_curve(radiance, 0.0)) + step;
     }
-    return display;
+    return tone_curve(radiance, step);
 }
 
 fn finish(radiance: vec3f, pixel: vec2f) -> vec4f {
-    let colour = display_colour(radiance);
     if OUTPUT == OUTPUT_RADIANCE {
-        return vec4f(colour, 1.0);
+        return vec4f(radiance, 1.0);
     }
-    let step = uniforms.tonemap.dither * dither_noise(pixel);
-    if OUTPUT == OUTPUT_ENCODED {
-        return vec4f(colour + step, 1.0);
-    }
-    // The hardware encodes. Around a value x a step of the encoding is as wide as its slope there, and
-    // 2 sqrt(x) is the slope of the curve's near relative, the square.
-    let root = colour * inverseSqrt(max(colour, vec3f(1e-6)));
-    return vec4f(colour + step * (2.0 * root + abs(step)), 1.0);
+    return vec4f(encoded_colour(radiance, uniforms.tonemap.dither * dither_noise(pixel)), 1.0);
 }

@@ -260,8 +260,8 @@ impl Frame<'_> {
                 .dot(sun.right)
                 .abs()
                 .max(direction.dot(sun.up).abs());
-            let ahead = direction.dot(sun.direction) > 0.0 && place < 1.1;
-            if sun.is_shown == 0.0 || !ahead {
+            let ahead = direction.dot(self.uniforms.sky.sun_direction) > 0.0 && place < 1.1;
+            if sun.least_cosine > 1.0 || !ahead {
                 return Vec3::ZERO;
             }
             let open = match direction.y > 0.0 {

@@ -5,7 +5,8 @@ use welkin_pack::air::AUREOLE_LOBES;
 use welkin_pack::role::Wrap;
 use welkin_runtime::SkyParams;
 use welkin_runtime::internals::clear_sky::ground::{BACKSCATTER, MOTTLING};
-use welkin_runtime::internals::clear_sky::table::AUREOLE_ROWS;
+use welkin_runtime::internals::clear_sky::picture::BEND;
+use welkin_runtime::internals::clear_sky::table::{AUREOLE_END, AUREOLE_LEAST};
 use welkin_runtime::internals::frame::Uniforms;
 use welkin_runtime::internals::pack_data::PackData;
 
@@ -38,7 +39,7 @@ pub fn radiance(uniforms: &Uniforms, texture: &Texture, clouds: &Texture, direct
     let noise = clouds.sample(uv.to_array(), ground.lod + 2.0 * libm::log2f(away))[2];
     let facing = 1.0 - BACKSCATTER * direction.dot(sky.sun_direction);
     let lit = ground.skylit + ground.sunlit * (facing / (ground.sun_sin - direction.y));
-    let radiance = lit * (1.0 + MOTTLING * (noise - ground.noise_mean));
+    let radiance = lit * (ground.plain + MOTTLING * noise);
     let through = Vec3::from((-ground.depth * away).to_array().map(libm::exp2f));
     light + (radiance - light) * through
 }
@@ -46,18 +47,16 @@ pub fn radiance(uniforms: &Uniforms, texture: &Texture, clouds: &Texture, direct
 fn table(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3 {
     let sky = &uniforms.sky;
     let up = direction.y.clamp(0.0, 1.0);
-    let flat = direction.xz().length().max(1e-6);
-    let azimuth_cos = direction.xz().dot(uniforms.clouds.sun_azimuth) / flat;
-    let place = Vec2::new(
-        (0.5 - 0.5 * azimuth_cos).max(0.0).sqrt(),
-        (1.0 - (1.0 - up).sqrt()).sqrt(),
-    );
+    let flat = match direction.y < 0.0 {
+        true => direction.xz().length().max(1e-6),
+        false => 1.0,
+    };
+    let sideways = direction.xz().dot(uniforms.clouds.sun_azimuth) / flat;
+    let place = Vec2::new(sideways, up.sqrt() * (1.0 + BEND * up));
     let uv = sky.start + sky.span * place;
     let texel = texture.sample(uv.to_array(), 0.0);
-    let row = place.y * (AUREOLE_ROWS - 1) as f32;
-    let below = (row as usize).min(AUREOLE_ROWS - 2);
-    let [low, high] = [0, 1].map(|i| sky.aureole[below + i].truncate());
-    let colour = low.lerp(high, row - below as f32);
+    let below_sun = texture.sample([sky.aureole_u, uv.y], 0.0);
+    let colour = Vec3::from_slice(&below_sun[..3]);
     let cosine = direction.dot(sky.sun_direction).min(1.0);
     Vec3::from_slice(&texel[..3]) + colour * (texel[3] * aureole(cosine))
 }
@@ -69,5 +68,9 @@ fn aureole(cosine: f32) -> f32 {
         let base = 1.0 + g * g - 2.0 * g * f64::from(cosine);
         weight * (1.0 - g * g) / (4.0 * std::f64::consts::PI * base * libm::sqrt(base))
     };
-    AUREOLE_LOBES.map(lobe).iter().sum::<f64>() as f32
+    let [narrow, wide] = AUREOLE_LOBES.map(lobe);
+    match cosine > AUREOLE_END {
+        true => (wide + narrow) as f32 - AUREOLE_LEAST,
+        false => wide as f32,
+    }
 }

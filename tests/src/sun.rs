@@ -1,7 +1,7 @@
 //! Twin of sun.wgsl.
 
 use glam::Vec3;
-use welkin_runtime::internals::clear_sky::sun::{GLARE_CORE, HORIZON};
+use welkin_runtime::internals::clear_sky::sun::{GLARE_CORE, GLARE_END, HORIZON};
 use welkin_runtime::internals::frame::Uniforms;
 
 use crate::texture::{Texture, smoothstep};
@@ -9,15 +9,15 @@ use crate::texture::{Texture, smoothstep};
 /// Radiance of the sun's square and of its glare along a unit direction.
 pub fn radiance(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3 {
     let sun = &uniforms.sun;
-    if sun.is_shown == 0.0 {
+    let cosine = direction.dot(uniforms.sky.sun_direction);
+    if cosine <= sun.least_cosine {
         return Vec3::ZERO;
     }
-    let cosine = direction.dot(sun.direction);
     let away = 2.0 - 2.0 * f64::from(cosine.min(1.0)) + f64::from(GLARE_CORE);
-    let glare = sun.glare * libm::pow(away, -1.5) as f32;
+    let glare = sun.glare * (libm::pow(away, -1.5) as f32 - GLARE_END).max(0.0);
     let place = [direction.dot(sun.right), -direction.dot(sun.up)];
     let inside = |place: [f32; 2]| place[0].abs().max(place[1].abs()) < 1.0;
-    if cosine <= 0.0 || !inside(place) {
+    if !inside(place) {
         return glare;
     }
     let uv = place.map(|p| 0.5 + 0.5 * p);

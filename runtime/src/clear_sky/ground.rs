@@ -46,8 +46,8 @@ uniforms! {
         lod: f32,
         /// Texture coordinates of the place below the viewer.
         place: Vec2,
-        /// Mean of the noise.
-        noise_mean: f32,
+        /// How bright it is where the noise is 0, so that its mean is 1.
+        plain: f32,
         /// Sine of the elevation of sun or moon, and a little, so that it is no divisor of 0.
         sun_sin: f32,
         /// Its radiance by sunlight where the law of Lommel and Seeliger is 1.
@@ -113,7 +113,7 @@ pub fn uniforms(
         depth: depth * std::f32::consts::LOG2_E,
         lod: (pixel_rad * height_tiles * noise.texels as f32).log2(),
         place: (place - place.floor()).as_vec2(),
-        noise_mean: noise.mean,
+        plain: 1.0 - MOTTLING * noise.mean,
         sun_sin: light.sun_sin.max(1e-3),
         sunlit: albedo * light.sun * light.sun_sin.max(0.0),
         ..Default::default()

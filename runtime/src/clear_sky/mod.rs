@@ -8,6 +8,7 @@ pub mod ground;
 pub mod light;
 #[cfg(feature = "perez")]
 pub mod perez;
+pub mod picture;
 pub mod skybox;
 pub mod stars;
 pub mod sun;

@@ -9,11 +9,11 @@
 //! There is no painted glow: the light about the sun is the sky's aureole, and on a display what a lens scatters ("glare"), as every
 //! photograph of the sun has it: `L = k 10 E / theta^3` with theta in degrees, the inner part of the veil that the eye has by J. J. Vos,
 //! "On the cause of disability glare and its dependence on glare angle, age and ocular pigmentation", 2003, of which a lens has a share k,
-//! chosen. A float target gets the light that comes from there, without it. Where a pixel is larger than the disc, the disc is drawn as
+//! chosen; it is taken off by its value 25 degrees from the sun and ends there. A float target gets the light that comes from there, without it. Where a pixel is larger than the disc, the disc is drawn as
 //! large as the pixel and as much dimmer, so that its light stays the same.
 //!
 //! # Practice
-//! One texture read, only inside the square. By day it is some 60,000 times as bright as white: what is below 65504 at every hour fits half
+//! One texture read, only inside the square; a root within 25 degrees. By day it is some 60,000 times as bright as white: what is below 65504 at every hour fits half
 //! floats.
 
 use glam::Vec3;
@@ -28,6 +28,7 @@ pub const PART: Part = Part {
     constants: &[
         ("SUN_HORIZON", Value::F32(HORIZON)),
         ("SUN_GLARE_CORE", Value::F32(GLARE_CORE)),
+        ("SUN_GLARE_END", Value::F32(GLARE_END)),
     ],
     structs: &[SunUniforms::WGSL],
     wgsl: include_str!("sun.wgsl"),
@@ -38,8 +39,8 @@ uniforms! {
     SunUniforms {
         /// The screen's right about the sun, over half the square's side.
         right: Vec3,
-        /// 1 if there is a sun to draw, else 0.
-        is_shown: f32,
+        /// Cosine of the angle from the sun from which on there is nothing of it; 1 and more without a sun.
+        least_cosine: f32,
         /// The same as right, upwards.
         up: Vec3,
         /// Level of the texture.
@@ -50,10 +51,6 @@ uniforms! {
         _pad: f32,
         /// What the lens scatters, over the inverse cube of the angle in radians.
         glare: Vec3,
-        /// Nothing.
-        _pad3: f32,
-        /// Unit direction towards what is drawn, the sun or the moon.
-        direction: Vec3,
         /// Nothing.
         _pad2: f32,
     }
@@ -72,6 +69,10 @@ const LEAST_RADIUS_PX: f32 = 1.0;
 const GLARE: f32 = 0.1;
 /// The square of the angle within which it grows no more: the disc's radius.
 pub const GLARE_CORE: f32 = SUN_RADIUS_RAD * SUN_RADIUS_RAD;
+/// Cosine of 25 degrees from the sun, where it ends: by then it is below a thousandth of the sky there.
+const GLARE_END_COSINE: f32 = 0.906_307_8;
+/// Its inverse cube there, in 1 / rad^3: what is taken off it everywhere, so that it ends without an edge.
+pub const GLARE_END: f32 = 12.325;
 
 /// The sun's share of the uniforms. `texels` is the side of the texture, `pixel_rad` that of a pixel; `shown` is
 /// whether it is drawn at all, `lens` whether what a lens scatters is.
@@ -96,7 +97,13 @@ pub fn uniforms(
     // What lights the ground is the radiance of a white surface, E / pi. The horizon hides the disc itself.
     SunUniforms {
         right: right / half_side,
-        is_shown: if is_shown { 1.0 } else { 0.0 },
+        least_cosine: if is_shown {
+            // The corners of the square, which lie beyond the glare where pixels are large.
+            let corner = (1.0 - 2.0 * half_side * half_side).max(0.0).sqrt();
+            corner.min(if lens { GLARE_END_COSINE } else { 1.0 })
+        } else {
+            2.0
+        },
         up: up / half_side,
         lod,
         disc: light.disc / (radius * radius * MEAN_DISC),
@@ -106,7 +113,6 @@ pub fn uniforms(
             } else {
                 0.0
             }),
-        direction: light.sun_direction,
         ..Default::default()
     }
 }

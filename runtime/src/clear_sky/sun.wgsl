@@ -1,15 +1,20 @@
 // The sun: a square that always faces the screen, and what a lens scatters of it. CPU part: sun.rs.
 
-fn sun_radiance(direction: vec3f) -> vec3f {
-    let sun = uniforms.sun;
-    if sun.is_shown == 0.0 {
-        return vec3f(0.0);
+// Adds it to a radiance where `share` of its light comes through.
+fn sun_added(radiance: vec3f, direction: vec3f, share: f32) -> vec3f {
+    let cosine = dot(direction, uniforms.sky.sun_direction);
+    if cosine <= uniforms.sun.least_cosine {
+        return radiance;
     }
-    let cosine = dot(direction, sun.direction);
+    return radiance + share * sun_radiance(direction, cosine);
+}
+
+fn sun_radiance(direction: vec3f, cosine: f32) -> vec3f {
+    let sun = uniforms.sun;
     let root = inverseSqrt(2.0 - 2.0 * min(cosine, 1.0) + SUN_GLARE_CORE);
-    let glare = sun.glare * (root * root * root);
+    let glare = sun.glare * max(root * root * root - SUN_GLARE_END, 0.0);
     let place = vec2f(dot(direction, sun.right), -dot(direction, sun.up));
-    if cosine <= 0.0 || max(abs(place.x), abs(place.y)) >= 1.0 {
+    if max(abs(place.x), abs(place.y)) >= 1.0 {
         return glare;
     }
     let disc = textureSampleLevel(sun_texture, clamp_sampler, 0.5 + 0.5 * place, sun.lod).r;

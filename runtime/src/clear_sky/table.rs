@@ -12,12 +12,12 @@
 //!
 //! # Practice
 //! What the aureole is multiplied by hardly has an azimuth while the sun is up: a frame keeps its colour by elevation below the sun, and by direction how much
-//! of it there is, as the alpha of the radiance. One read, and a colour from the uniforms.
+//! of it there is, as the alpha of the radiance. Both are in one picture ([`crate::clear_sky::picture`]).
 //!
-//! A view is some 30 microseconds of one core, and 4 KB to upload, when hour or haze change; a pixel reads it once and takes four
-//! roots and two reciprocal ones.
+//! A view is some 30 microseconds of one core and its picture some 60, with 26 KB to upload, when hour or haze change; a pixel reads it twice and takes
+//! a root and a reciprocal one, near the sun two.
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3};
 use half::f16;
 use welkin_pack::air::AUREOLE_LOBES;
 use welkin_pack::mapping::{
@@ -25,6 +25,7 @@ use welkin_pack::mapping::{
 };
 use welkin_pack::{Image, Texture};
 
+use crate::clear_sky::picture::{self, BEND, Places};
 use crate::geometry::math::luminance;
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
@@ -32,8 +33,10 @@ use crate::geometry::uniforms::uniforms;
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[
+        ("AUREOLE_END", Value::F32(AUREOLE_END)),
+        ("AUREOLE_LEAST", Value::F32(AUREOLE_LEAST)),
         ("AUREOLE_WIDE", Value::Vec2(lobe(AUREOLE_LOBES[1]))),
-        ("AUREOLE_ROWS", Value::U32(AUREOLE_ROWS as u32)),
+        ("SKY_BEND", Value::F32(BEND)),
         ("AUREOLE_NARROW", Value::Vec2(lobe(AUREOLE_LOBES[0]))),
     ],
     structs: &[SkyUniforms::WGSL],
@@ -51,52 +54,50 @@ uniforms! {
         overcast: Vec3,
         /// How far the sky is overcast.
         overcast_weight: f32,
-        /// Texture coordinates of the first texel's centre.
+        /// Texture coordinates of a direction that goes neither to the sun's azimuth nor up.
         start: Vec2,
-        /// How far the last one's is from there.
+        /// How far they go with each.
         span: Vec2,
-        /// What the aureole's phase function is multiplied by below the sun, in even steps of the root of the root of the elevation.
-        aureole: [Vec4; AUREOLE_ROWS],
+        /// Texture coordinate of the aureole's colour.
+        aureole_u: f32,
         /// How much brighter a storm is at the horizon, where light comes in from beyond it.
         slit: f32,
         /// Nothing.
-        _pad: f32,
-        /// Nothing.
-        _pad2: Vec2,
+        _pad: Vec2,
     }
 }
 
-/// Rows of the aureole's colour: as many as the default table has.
-pub const AUREOLE_ROWS: usize = 32;
-
-/// The most of it: beyond, in the shade of the earth, there is next to nothing below the sun either.
-const MOST_SHARE: f32 = 4.0;
+/// Cosine of 25 degrees from the sun, where the narrow lobe ends in the shader: there it is a thousandth of the wide one.
+pub const AUREOLE_END: f32 = 0.906_307_8;
+/// Its value there, which is taken off it so that it ends without an edge.
+pub const AUREOLE_LEAST: f32 = 4.197e-4;
 
 /// The earth's radius over that of the layer of airglow, 90 km higher.
 const AIRGLOW_RADII: f32 = 6371.0 / 6461.0;
 /// Optical depth of air as eyes see at night.
 const AIRGLOW_DEPTH: f32 = 0.12;
 
-/// Of a lobe of the aureole: what `(b - cosine)^-1.5` is multiplied by, and b.
+/// Of a lobe of the aureole, `(a - b cosine)^-1.5`: a and b.
 const fn lobe([weight, g]: [f32; 2]) -> [f32; 2] {
-    // The power 1.5 of 2 g, by three of Newton's steps for the root: no root is const.
-    let two_g = 2.0 * g;
-    let mut root = 1.3_f32;
+    // w (1 - g^2) / (4 pi) is the -1.5th power of what base (1 + g^2 - 2 g cosine) is multiplied by: a third root squared, by Newton's steps,
+    // as none is const.
+    let scale = weight * (1.0 - g * g) / (4.0 * std::f32::consts::PI);
+    let mut root = 1.0_f32;
     let mut i = 0;
-    while i < 4 {
-        root = 0.5 * (root + two_g / root);
+    while i < 40 {
+        root = (2.0 * root + scale / (root * root)) / 3.0;
         i += 1;
     }
-    let scale = weight * (1.0 - g * g) / (4.0 * std::f32::consts::PI * two_g * root);
-    [scale, (1.0 + g * g) / two_g]
+    let factor = 1.0 / (root * root);
+    [factor * (1.0 + g * g), factor * 2.0 * g]
 }
 
-/// The phase function of a lobe of the aureole, 0 the narrow one, 1 the wide one: as the shader has it.
+/// The phase function of a lobe of the aureole, 0 the narrow one, 1 the wide one: as the shader has them before the narrow one ends.
 pub fn aureole_lobe(index: usize, cosine: f32) -> f32 {
     const LOBES: [[f32; 2]; 2] = [lobe(AUREOLE_LOBES[0]), lobe(AUREOLE_LOBES[1])];
-    let [scale, b] = LOBES[index];
-    let beyond = b - cosine.min(1.0);
-    scale / (beyond * beyond.sqrt())
+    let [a, b] = LOBES[index];
+    let beyond = a - b * cosine.min(1.0);
+    1.0 / (beyond * beyond.sqrt())
 }
 
 /// The pack's table.
@@ -245,6 +246,7 @@ fn solid_angles(size: [u32; 2]) -> Vec<f32> {
 /// The clear sky of a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SkyView {
+    /// Azimuths and elevations.
     size: [u32; 2],
     /// Without the aureole.
     radiance: Vec<Vec3>,
@@ -304,36 +306,14 @@ impl SkyView {
         }
     }
 
-    /// The picture that the shader reads: radiance, and in alpha how much there is of the aureole's light, over that below the sun.
+    /// The picture that the shader reads.
     pub fn image(&self) -> Image {
-        let [width, height] = self.size;
-        let mut image = Image::new(width, height, 4);
-        for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
-            let i = (y * width + x) as usize;
-            let below = luminance(self.aureole[(y * width) as usize]);
-            let share = luminance(self.aureole[i]) / below.max(1e-9);
-            // As half floats have it, so that twins read what the device reads.
-            let texel = self.radiance[i].extend(share.min(MOST_SHARE)).to_array();
-            let halves = texel.map(|c| f16::from_f32(c).to_f32());
-            image.texel_mut(x, y).copy_from_slice(&halves);
-        }
-        image
+        picture::image(self.size, &self.radiance, &self.aureole)
     }
 
-    /// What the aureole's phase function is multiplied by below the sun, from the horizon to the zenith.
-    fn aureole_rows(&self) -> [Vec4; AUREOLE_ROWS] {
-        let [width, height] = self.size;
-        let row = |y: u32| self.aureole[(y.min(height - 1) * width) as usize];
-        std::array::from_fn(|i| {
-            let place = i as f32 / (AUREOLE_ROWS - 1) as f32 * (height - 1) as f32;
-            let low = place as u32;
-            row(low).lerp(row(low + 1), place - low as f32).extend(0.0)
-        })
-    }
-
-    /// Size of its picture.
+    /// Size of that picture.
     pub fn image_size(table: &SkyTable) -> [u32; 2] {
-        table.size
+        Places::new(table.size).size()
     }
 }
 
@@ -349,16 +329,17 @@ pub fn uniforms(
     overcast_weight: f32,
     slit: f32,
 ) -> SkyUniforms {
-    let [width, height] = view.size.map(|side| side as f32);
+    let places = Places::new(view.size);
+    let [start, span] = places.start_and_span();
     SkyUniforms {
         sun_direction: direction,
         night,
         overcast,
         overcast_weight,
         slit,
-        start: Vec2::new(0.5 / width, 0.5 / height),
-        span: Vec2::new((width - 1.0) / width, (height - 1.0) / height),
-        aureole: view.aureole_rows(),
+        start: start.into(),
+        span: span.into(),
+        aureole_u: places.aureole_u(),
         ..Default::default()
     }
 }
@@ -378,9 +359,8 @@ mod tests {
     #[test]
     fn lobes_are_those_of_the_phase_function() {
         for cosine in [-1.0_f32, -0.3, 0.5, 0.9, 0.999, 1.0] {
-            let lobes = AUREOLE_LOBES.map(|l| lobe(l)[0] * (lobe(l)[1] - cosine).powf(-1.5));
-            let found = lobes[0] + lobes[1];
-            // The narrow lobe's b is 1.000165: the difference from 1 keeps four digits.
+            let found = aureole_lobe(0, cosine) + aureole_lobe(1, cosine);
+            // The narrow lobe's a is 1.000165 b: the difference keeps four digits.
             assert!(
                 (found / aureole_phase(cosine) - 1.0).abs() < 2e-3,
                 "{cosine}: {found}"

@@ -1,27 +1,28 @@
-// The clear sky of the pack's table: what is scattered to all sides, and the aureole. CPU part: table.rs.
+// The clear sky of the pack's table: what is scattered to all sides, and the aureole. CPU part: table.rs, picture.rs.
 
-// A lobe of the aerosol's phase function: Henyey and Greenstein's, by its scale and b.
+// A lobe of the aerosol's phase function: Henyey and Greenstein's. A cosine that is rounded up leaves it as it is.
 fn aureole_lobe(lobe: vec2f, cosine: f32) -> f32 {
-    let root = inverseSqrt(lobe.y - min(cosine, 1.0));
-    return lobe.x * root * root * root;
+    let root = inverseSqrt(lobe.x - lobe.y * cosine);
+    return root * root * root;
 }
 
 // The clear sky along a unit direction; from below the horizon, that of the horizon.
 fn table_light(direction: vec3f) -> vec3f {
-    let up = clamp(direction.y, 0.0, 1.0);
-    let flat = inverseSqrt(max(dot(direction.xz, direction.xz), 1e-12));
-    let azimuth_cos = dot(direction.xz, uniforms.clouds.sun_azimuth) * flat;
-    // 1 - sqrt(1 - up), without the difference of two numbers near 1.
-    let row = up / (1.0 + sqrt(1.0 - up));
-    let place = vec2f(sqrt(max(0.5 - 0.5 * azimuth_cos, 0.0)), sqrt(row));
+    var place = vec2f(dot(direction.xz, uniforms.clouds.sun_azimuth), 0.0);
+    if direction.y > 0.0 {
+        place.y = sqrt(direction.y) * (1.0 + SKY_BEND * direction.y);
+    } else {
+        place.x *= inverseSqrt(max(dot(direction.xz, direction.xz), 1e-12));
+    }
     let uv = uniforms.sky.start + uniforms.sky.span * place;
-    let texel = textureSampleLevel(sky_texture, clamp_sampler, uv, 0.0);
-    let aureole_row = place.y * f32(AUREOLE_ROWS - 1u);
-    let below = min(u32(aureole_row), AUREOLE_ROWS - 2u);
-    let colour = mix(uniforms.sky.aureole[below].rgb, uniforms.sky.aureole[below + 1u].rgb, aureole_row - f32(below));
+    let sky = textureSampleLevel(sky_texture, clamp_sampler, uv, 0.0);
+    let colour = textureSampleLevel(sky_texture, clamp_sampler, vec2f(uniforms.sky.aureole_u, uv.y), 0.0).rgb;
     let cosine = dot(direction, uniforms.sky.sun_direction);
-    let phase = aureole_lobe(AUREOLE_WIDE, cosine) + aureole_lobe(AUREOLE_NARROW, cosine);
-    return texel.rgb + colour * (texel.a * phase);
+    var phase = aureole_lobe(AUREOLE_WIDE, cosine);
+    if cosine > AUREOLE_END {
+        phase += aureole_lobe(AUREOLE_NARROW, cosine) - AUREOLE_LEAST;
+    }
+    return sky.rgb + colour * (sky.a * phase);
 }
 
 // The sky behind the clouds along a unit direction, or the ground.

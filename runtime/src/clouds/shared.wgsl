@@ -19,9 +19,9 @@ fn cloud_scattered(direction: vec3f, depth: f32, height: f32) -> vec2f {
     let cosine = dot(direction, uniforms.sky.sun_direction);
     let root = inverseSqrt(CLOUD_FORWARD.y - CLOUD_FORWARD.z * cosine);
     let phase = min(CLOUD_FORWARD.x * root * root * root + CLOUD_BACKWARD.x - CLOUD_BACKWARD.y * cosine, CLOUD_BRIGHTEST);
-    let lacking = CLOUD_POWDER.x * (0.5 - 0.5 * cosine) * max(1.0 - CLOUD_POWDER.y * height, 0.0);
+    let lacking = 0.5 * CLOUD_POWDER.x * (1.0 - cosine) * clamp(1.0 - CLOUD_POWDER.y * height, 0.0, 1.0);
     // A low sun lights sides: one sees the lit ones away from it.
-    let sided = mix(1.0, CLOUD_ABEAM - CLOUD_SIDED * cosine, uniforms.clouds.low_sun);
+    let sided = 1.0 + uniforms.clouds.low_sun * ((CLOUD_ABEAM - 1.0) - CLOUD_SIDED * cosine);
     let through = exp2(-depth);
     let rim = CLOUD_SINGLE.y * phase * exp2(-depth - CLOUD_THIN * height);
     let body = (CLOUD_SINGLE.x * through + CLOUD_MULTIPLE.x * exp2(-CLOUD_MULTIPLE.y * depth)) * sided;
@@ -32,6 +32,9 @@ fn cloud_scattered(direction: vec3f, depth: f32, height: f32) -> vec2f {
 fn cloud_lit(shares: vec2f, tint: f32) -> vec3f {
     let clouds = uniforms.clouds;
     let light = shares.x * clouds.sunlight + shares.y * clouds.ambient;
+    if clouds.sunset == 0.0 {
+        return light;
+    }
     return light * mix(vec3f(1.0), clouds.tint, tint);
 }
 

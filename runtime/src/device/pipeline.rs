@@ -36,11 +36,12 @@ impl Variant {
     }
 
     /// The shader's overridable constants.
-    fn constants(self) -> [(&'static str, f64); 2] {
+    fn constants(self, dome_mesh: bool) -> [(&'static str, f64); 3] {
         let number = |on: bool| f64::from(u8::from(on));
         [
             ("NIGHT", number(self.night)),
             ("UPPER_LAYER", number(self.upper_layer)),
+            ("DOME_MESH", number(dome_mesh)),
         ]
     }
 }
@@ -86,7 +87,7 @@ pub(crate) fn pipelines(
                 module,
                 entry_point: Some("fs_sky"),
                 compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: &variant.constants(),
+                    constants: &variant.constants(dome_mesh),
                     ..Default::default()
                 },
                 targets: &[Some(config.target_format.into())],

@@ -8,7 +8,7 @@ fn behind_clouds(direction: vec3f, pixel: vec2f, clear: f32) -> vec3f {
         let night = galaxy * uniforms.galaxy.radiance + star_radiance(dome, direction, pixel, galaxy);
         radiance += night * smoothstep(0.0, EXTINCTION, direction.y);
     }
-    radiance += sun_radiance(direction) * (clear * clear);
+    radiance = sun_added(radiance, direction, clear * clear);
     if SKYBOX {
         radiance = skybox_mix(radiance, direction);
     }
@@ -18,10 +18,16 @@ fn behind_clouds(direction: vec3f, pixel: vec2f, clear: f32) -> vec3f {
 // The whole sky of one pixel: clouds, and where they let it through, what is behind them.
 @fragment
 fn fs_sky(in: Varyings) -> @location(0) vec4f {
-    let direction = in.ray * inverseSqrt(dot(in.ray, in.ray));
+    let shortening = inverseSqrt(dot(in.ray, in.ray));
+    let direction = in.ray * shortening;
     var clouds = vec4f(0.0);
     if direction.y > 0.0 {
-        clouds = cloud_layer(direction, pixel_narrowing(direction));
+        // Along the axis of the lens a ray of the screen's triangle goes by 1.
+        var narrowing = shortening;
+        if DOME_MESH {
+            narrowing = pixel_narrowing(direction);
+        }
+        clouds = cloud_layer(direction, narrowing);
     }
     var radiance = clouds.rgb;
     if !ASK_OPAQUE || clouds.a < 1.0 {

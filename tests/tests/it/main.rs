@@ -3,5 +3,6 @@
 mod floors;
 mod golden;
 mod perez;
+mod sky_picture;
 mod tonemap;
 mod twilight;

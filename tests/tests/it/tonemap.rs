@@ -180,6 +180,19 @@ fn the_polynomial_is_as_near_to_the_sigmoid_as_wrensch_says() {
     assert!((mean / 3.670_514_1e-6 - 1.0).abs() < 0.01, "{mean:e}");
 }
 
+#[test]
+fn the_polynomials_are_the_powers() {
+    for i in 0..=10_000 {
+        let x = i as f32 / 10_000.0;
+        let powered = agx::sigmoid(x).max(0.0).powf(agx::PUNCHY_POWER);
+        let off = agx::contrast(x) - powered;
+        assert!(off.abs() < 0.22 / 255.0, "{x}: {off}");
+        let [own, exact] =
+            [agx::powered(x), x.powf(agx::GAMMA)].map(|c| srgb_encoded(Vec3::splat(c)).x);
+        assert!((own - exact).abs() < 0.15 / 255.0, "{x}: {own} {exact}");
+    }
+}
+
 /// Linear BT.709 to CIE XYZ, rows: IEC 61966-2-1, 1999.
 const XYZ_OF_RGB: [[f64; 3]; 3] = [
     [0.4124, 0.3576, 0.1805],

@@ -29,13 +29,16 @@ fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
         let uv = octaves_uv(octaves.low, hit.plane);
         let at_level = level + octaves.low.lod_bias;
         let cloud = octaves_map_at(uv, at_level);
-        let finer = octaves_map_at(uv * OCTAVE_FINER + OCTAVE_FINER_START, at_level + OCTAVE_FINER_LEVEL).r - 0.5;
-        let alpha = clamp(cloud.g + octaves.roughness * finer * cloud.g * (1.0 - cloud.g), 0.0, 1.0);
-        grey = mix(thin_grey, cloud.a + OCTAVE_ROUGH_GREY * finer, alpha);
-        let passed = max(OCTAVE_ROUGH_DEPTH * finer - log2(max(cloud.a, OCTAVE_LEAST_LIGHT)), 0.0);
-        depth = mix(OCTAVE_THIN_DEPTH, passed, alpha);
-        body = alpha;
-        clear = 1.0 - alpha;
+        // Where there is no cloud nothing is roughened.
+        if cloud.g > 0.0 {
+            let finer = octaves_map_at(uv * OCTAVE_FINER + OCTAVE_FINER_START, at_level + OCTAVE_FINER_LEVEL).r - 0.5;
+            let alpha = clamp(cloud.g + octaves.roughness * finer * cloud.g * (1.0 - cloud.g), 0.0, 1.0);
+            grey = mix(thin_grey, cloud.a + OCTAVE_ROUGH_GREY * finer, alpha);
+            let passed = max(OCTAVE_ROUGH_DEPTH * finer - log2(max(cloud.a, OCTAVE_LEAST_LIGHT)), 0.0);
+            depth = mix(OCTAVE_THIN_DEPTH, passed, alpha);
+            body = alpha;
+            clear = 1.0 - alpha;
+        }
     }
     if octaves.middle.threshold < 1.0 {
         let uv = octaves_uv(octaves.middle, hit.plane);
@@ -48,6 +51,9 @@ fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
         let full = clamp(thickness * octaves.high_contrast, 0.0, 1.0);
         let alpha = OCTAVE_HIGH_OPACITY * full * full * (3.0 - 2.0 * full);
         clear *= 1.0 - alpha;
+    }
+    if clear >= 1.0 {
+        return vec4f(0.0);
     }
     let tint = cloud_tint(direction);
     let alpha = (1.0 - clear) * cloud_clearness(direction);

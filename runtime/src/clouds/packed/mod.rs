@@ -28,7 +28,7 @@ pub mod coverage;
 pub mod map;
 pub mod paper;
 
-use glam::{DVec2, Vec2, Vec3};
+use glam::{DVec2, Vec2, Vec3, Vec4};
 
 use crate::clouds::shared::{
     CloudUniforms, CloudView, LOW_HEIGHT_M, MAX_WIND, lit, offset, overcast_weight, scattered,
@@ -48,7 +48,6 @@ pub const PART: Part = Part {
         ("PACKED_FOOT", Value::F32(FOOT)),
         ("PACKED_OWN", Value::F32(OWN)),
         ("PACKED_SHARES", Value::Vec3(SHARES)),
-        ("PACKED_DEPTHS", Value::Vec3(DEPTHS)),
         ("PACKED_RELIEF", Value::F32(RELIEF)),
         ("PACKED_RELIEF_FULL", Value::F32(RELIEF_FULL)),
     ],
@@ -121,6 +120,8 @@ uniforms! {
         map_lod_bias: f32,
         /// Height that an overcast has everywhere and that does not darken.
         shut: f32,
+        /// What is taken off an amount times the contrast: for the shade of the places towards the sun, and for the height before detail adds to it.
+        cuts: Vec4,
     }
 }
 
@@ -200,6 +201,11 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun: Vec3) -> PackedUnifor
     let photo_step = step * scale;
     let map_side = view.texels.clamp(LEAST_SIDE, map::MOST_SIDE);
     let kept = |least: f32, weight: f32| 1.0 - (1.0 - least) * weight;
+    let threshold = 1.0 - params.cover - OVERCAST * overcast_weight;
+    let contrast = 1.0 / params.cover.max(0.05);
+    let erosion =
+        EROSION * kept(ERODED_DENSE, params.density) * kept(ERODED_OVERCAST, overcast_weight);
+    let shut = SHUT * OVERCAST * overcast_weight * contrast;
     PackedUniforms {
         photo_offset: offset(PHOTO_START + (place - PHOTO_WIND * way) * scale),
         photo_scale: (scale * near) as f32,
@@ -214,13 +220,11 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun: Vec3) -> PackedUnifor
         noise_lod_bias: level(noise_scale * near),
         upper_lod_bias: level((upper_scale.x * upper_scale.y).sqrt()),
         smoothness: params.density.max(overcast_weight),
-        threshold: 1.0 - params.cover - OVERCAST * overcast_weight,
-        contrast: 1.0 / params.cover.max(0.05),
+        threshold,
+        contrast,
         density: params.density,
         upper_layer: params.upper_layer,
-        erosion: EROSION
-            * kept(ERODED_DENSE, params.density)
-            * kept(ERODED_OVERCAST, overcast_weight),
+        erosion,
         photo_step: photo_step.as_vec2(),
         // Light comes to the base of an overcast from all sides: bumps hardly show.
         detail_step: (step * (RELIEF_WAY * detail_scale)).as_vec2()
@@ -230,7 +234,8 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun: Vec3) -> PackedUnifor
         opacity_rate: OPACITY_RATE * (1.0 + 2.0 * params.density),
         map_side: map_side as f32,
         map_lod_bias: view.level(scale * near * f64::from(map_side)),
-        shut: SHUT * OVERCAST * overcast_weight / params.cover.max(0.05),
+        shut,
+        cuts: (DEPTHS + shut + 0.5 * erosion).extend(erosion) + threshold * contrast,
     }
 }
 

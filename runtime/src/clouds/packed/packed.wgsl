@@ -40,13 +40,17 @@ fn packed_scattered_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let detail_uv = hit.plane * packed.detail_scale + packed.detail_offset;
     let detail_level = level + packed.detail_lod_bias;
     let detail = packed_sample(detail_uv, detail_level).b;
-    let detail_beyond = packed_sample(detail_uv + packed.detail_step, detail_level).b;
     let tint = cloud_tint(direction);
 
-    let amounts = photos + noise * (1.0 - photos);                    // line 14
-    let heights = (amounts - packed.threshold) * packed.contrast;     // lines 15-17
-    let height = max(heights.w - packed.erosion * (1.0 - detail), 0.0);
-    let above = max(heights.xyz - PACKED_DEPTHS - (packed.shut + 0.5 * packed.erosion), vec3f(0.0));
+    let amounts = noise + photos * (1.0 - noise);                     // line 14
+    let heights = amounts * packed.contrast - packed.cuts;            // lines 15-17
+    let height = max(heights.w + packed.erosion * detail, 0.0);
+    // Where there is no cloud nothing is lit.
+    if height <= 0.0 {
+        return packed_over_veil(hit, level, direction, tint, vec4f(0.0));
+    }
+    let detail_beyond = packed_sample(detail_uv + packed.detail_step, detail_level).b;
+    let above = max(heights.xyz, vec3f(0.0));
     let relief = PACKED_RELIEF * (detail_beyond - detail) * min(PACKED_RELIEF_FULL * height, 1.0);
     let thickness = max(height - packed.shut, 0.0);
     let passed = max(PACKED_OWN * thickness + dot(PACKED_SHARES, above) + relief, 0.0);
