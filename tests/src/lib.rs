@@ -20,6 +20,7 @@ pub mod gpu;
 pub mod lightning;
 pub mod lit;
 pub mod lit_map;
+pub mod lit_paper;
 pub mod map;
 pub mod methods;
 pub mod octaves;

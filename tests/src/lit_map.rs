@@ -1,23 +1,35 @@
 //! Twin of clouds/lit/map.wgsl: each layer of the map, and what texture units may make of it.
 
+use glam::Vec2;
 use welkin_pack::{Image, LayerKind, Pack, Role};
-use welkin_runtime::internals::clouds::lit::map::{LEAST_UP, WEIGHTS};
+use welkin_runtime::internals::clouds::lit::map::{
+    APART, BENDS, EVENED_RELIEF, LEAST_UP, OWN, RELIEF, RELIEF_FULL, RISES, ROLL_LEVELS, ROLLS,
+    SHARES, STEPS, WEIGHTS,
+};
 use welkin_runtime::internals::clouds::lit::{LitLayerUniforms, LitUniforms};
-use welkin_runtime::params::MAX_LAYERS;
+use welkin_runtime::internals::clouds::shared::MULTIPLE;
+use welkin_runtime::params::{MAX_LAYERS, Shading};
 
 use crate::texture::{Texture, mix, smoothstep};
 
-/// Level 0 of each layer in use, not rounded: light that falls on the cloud, amount, opacity, shade. `kinds` are the pack's layers.
-pub fn render(lit: &LitUniforms, kinds: &[Texture]) -> Vec<Image> {
-    map(lit, kinds, |layer, _, read| texel(lit, layer, read))
+/// Level 0 of each layer in use, not rounded. By the paper's shading: light that falls on the cloud, amount, opacity, shade; by the other: what
+/// is left of light that was scattered many times, amount, opacity, height. `kinds` are the pack's layers.
+pub fn render(lit: &LitUniforms, kinds: &[Texture], shading: Shading) -> Vec<Image> {
+    map(lit, kinds, shading, |layer, _, places| {
+        shaded(lit, layer, places, shading)
+    })
 }
 
 /// What each texel of level 0 may be off by, in bytes.
 ///
-/// A texture unit may filter 8-bit texels in 8 bits, so each read is off by up to a byte; the weights of both reads add
-/// up to 1. Exponentials of a GPU are off by 2^-11 of at most 1; the target rounds by half a byte.
-pub fn bounds(lit: &LitUniforms, kinds: &[Texture]) -> Vec<Image> {
-    let mut images = changes(lit, kinds, &[1.0 / 255.0; MAX_LAYERS]);
+/// A texture unit may filter 8-bit texels in 8 bits, so each read is off by up to a byte, and the weights of both reads add
+/// up to 1; towards the sun it mixes levels, too. Exponentials of a GPU are off by 2^-11 of at most 1; the target rounds by half a byte.
+pub fn bounds(lit: &LitUniforms, kinds: &[Texture], shading: Shading) -> Vec<Image> {
+    let byte = match shading {
+        Shading::Scattered => 1.5 / 255.0,
+        Shading::Paper => 1.0 / 255.0,
+    };
+    let mut images = changes(lit, kinds, shading, &[byte; MAX_LAYERS]);
     for bound in images.iter_mut().flat_map(|image| &mut image.texels) {
         *bound = 255.0 * (*bound + libm::exp2f(-11.0)) + 0.5;
     }
@@ -27,25 +39,26 @@ pub fn bounds(lit: &LitUniforms, kinds: &[Texture]) -> Vec<Image> {
 /// By how much each texel of level 0 changes if every read of a layer is off by up to as much as the layer's place in `off`
 /// says.
 ///
-/// Amount and opacity only rise with the rank, and shade only falls with ranks and densities, so they are farthest off
-/// where every read is off the same way. For the light that falls on a cloud its normal is moved all ways.
-fn changes(lit: &LitUniforms, kinds: &[Texture], off: &[f32]) -> Vec<Image> {
+/// Amount, opacity and height only rise with the rank, and light and shade only fall with ranks and densities, so they are farthest off
+/// where every read is off the same way. What follows from a normal is taken with it moved all ways.
+fn changes(lit: &LitUniforms, kinds: &[Texture], shading: Shading, off: &[f32]) -> Vec<Image> {
     const WAYS: [f32; 3] = [-1.0, 0.0, 1.0];
-    map(lit, kinds, |layer, index, read| {
-        let here = texel(lit, layer, read);
+    map(lit, kinds, shading, |layer, index, places| {
+        let here = shaded(lit, layer, places, shading);
         let mut most = [0.0_f32; 4];
-        let mut farthest = |channel: usize, there: f32| {
-            most[channel] = most[channel].max((there - here[channel]).abs());
+        let moved = |x: f32, y: f32, by: f32| {
+            let mut moved: Vec<Place> = places.iter().map(|place| place.off_by(by)).collect();
+            for (part, way) in moved[0].read.iter_mut().zip([x, y]) {
+                *part += way * off[index] - by;
+            }
+            shaded(lit, layer, &moved, shading)
         };
         for way in WAYS {
-            let by = way * off[index];
-            let [_, amount, opacity, shade] = texel(lit, layer, read.map(|c| c + by));
-            farthest(1, amount);
-            farthest(2, opacity);
-            farthest(3, shade);
-            for other in WAYS {
-                let [x, y, ..] = read;
-                farthest(0, falls(lit, layer, [x + by, y + other * off[index]]));
+            for (x, y) in WAYS.iter().flat_map(|x| WAYS.map(|y| (*x, y))) {
+                let there = moved(x, y, way * off[index]);
+                for (most, (there, here)) in most.iter_mut().zip(there.iter().zip(here)) {
+                    *most = most.max((there - here).abs());
+                }
             }
         }
         most
@@ -55,18 +68,23 @@ fn changes(lit: &LitUniforms, kinds: &[Texture], off: &[f32]) -> Vec<Image> {
 /// By how much channels of each layer change at most from one moment to another beside their motion: the second read
 /// moves, passes no more than the steepest slope between two texels on its way, and may be off by a byte one way before and
 /// the other way after.
-pub fn most_change(from: &LitUniforms, to: &LitUniforms, kinds: &[Texture]) -> Vec<[f32; 4]> {
+pub fn most_change(
+    from: &LitUniforms,
+    to: &LitUniforms,
+    kinds: &[Texture],
+    shading: Shading,
+) -> Vec<[f32; 4]> {
     let layers = from.layers.iter().zip(&to.layers);
+    let kind = &kinds[LayerKind::Cumulus as usize];
     let off: Vec<f32> = layers
         .map(|(from, to)| {
-            let kind = &kinds[from.kind as usize];
             let turn = to.second_offset - from.second_offset;
             let turn = (turn - turn.round()).abs();
             let texels = kind.levels()[0].width as f32 * (turn.x + turn.y);
             WEIGHTS[1] * (texels * steepest(&kind.levels()[0]) + 2.0 / 255.0)
         })
         .collect();
-    let images = changes(from, kinds, &off).into_iter();
+    let images = changes(from, kinds, shading, &off).into_iter();
     images.map(|image| largest(&image)).collect()
 }
 
@@ -105,14 +123,21 @@ pub fn kinds(pack: &Pack) -> Vec<Texture> {
 }
 
 /// The same of a layer's four channels at most, and on average: rounding is off by a quarter of its step.
-pub fn allowance(lit: &LitUniforms, kinds: &[Texture]) -> Vec<([f32; 4], [f32; 4])> {
+pub fn allowance(
+    lit: &LitUniforms,
+    kinds: &[Texture],
+    shading: Shading,
+) -> Vec<([f32; 4], [f32; 4])> {
     let of_layer = |bounds: Image| {
         let texels = bounds.texels.len() as f32 / 4.0;
         let channel = |i: usize| bounds.texels.iter().skip(i).step_by(4);
         let mean = std::array::from_fn(|i| channel(i).sum::<f32>() / texels / 4.0);
         (largest(&bounds), mean)
     };
-    bounds(lit, kinds).into_iter().map(of_layer).collect()
+    bounds(lit, kinds, shading)
+        .into_iter()
+        .map(of_layer)
+        .collect()
 }
 
 /// The share of places where two even numbers, weighed and added, are less than this: the area below a slanted line in the unit
@@ -124,35 +149,155 @@ pub fn even(blend: f32) -> f32 {
     (triangle(blend) - outside + triangle(blend - larger - smaller)) / (larger * smaller)
 }
 
-/// An image a layer of what follows from the blended read of the pack's texture.
+/// What a layer is computed from in a place.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// Both reads of the pack's texture: normal, density, rank.
+    read: [f32; 4],
+    /// Lumps and bands of an overcast, between 0 and 1.
+    rolls: f32,
+}
+
+impl Place {
+    /// At a level of the pack's texture.
+    fn of(layer: &LitLayerUniforms, kinds: &[Texture], uv: Vec2, level: f32) -> Place {
+        let [lumps, fibres] =
+            [LayerKind::Cumulus, LayerKind::Cirrus].map(|kind| &kinds[kind as usize]);
+        let kind = layer.kind as usize;
+        let here = match kind == LayerKind::Cirrus as usize {
+            true => fibres.sample((2.0 * bent(uv)).to_array(), level + 1.0),
+            false => kinds[kind].sample(uv.to_array(), level),
+        };
+        let away = (uv + layer.second_offset).to_array();
+        let other = lumps.sample(away, level + layer.second_level);
+        let [coarse, coarser] = ROLL_LEVELS;
+        let [_, _, lump, _] = lumps.sample(away, level + coarse);
+        let [_, _, band, _] = fibres.sample(bent(uv).to_array(), level + coarser);
+        Place {
+            read: mix(here, other, WEIGHTS[1]),
+            rolls: 0.5 * (lump + band),
+        }
+    }
+
+    /// With every read off.
+    fn off_by(&self, off: f32) -> Place {
+        Place {
+            read: self.read.map(|channel| channel + off),
+            rolls: self.rolls + off,
+        }
+    }
+}
+
+/// Where the fibres of a place of cirrus are.
+fn bent(uv: Vec2) -> Vec2 {
+    let wave = |x: f32| {
+        let turn = 2.0 * (x - x.floor()) - 1.0;
+        4.0 * turn * (turn.abs() - 1.0)
+    };
+    let [long, short, along, short_along] = BENDS;
+    let v = uv.y + long * wave(uv.x) + short * wave(2.0 * uv.x + 0.16);
+    Vec2::new(
+        uv.x + along * wave(v + 0.32) + short_along * wave(3.0 * v),
+        v,
+    )
+}
+
+/// An image a layer of what follows from its places: its own and, but for the paper's shading, those towards the sun.
 fn map(
     lit: &LitUniforms,
     kinds: &[Texture],
-    texel: impl Fn(&LitLayerUniforms, usize, [f32; 4]) -> [f32; 4],
+    shading: Shading,
+    texel: impl Fn(&LitLayerUniforms, usize, &[Place]) -> [f32; 4],
 ) -> Vec<Image> {
     let side = lit.resolution;
     let layers = lit.layers.iter().take(lit.count as usize).enumerate();
     let draw = |(index, layer): (usize, &LitLayerUniforms)| {
-        let kind = &kinds[layer.kind as usize];
+        let step_texels = layer.sun_step.length() * kinds[0].levels()[0].width as f32;
+        let towards: Vec<(f32, f32)> = match shading {
+            Shading::Scattered => (STEPS.iter().zip(APART))
+                .map(|(steps, apart)| (*steps, libm::log2f(0.5 * step_texels * apart).max(0.0)))
+                .collect(),
+            Shading::Paper => Vec::new(),
+        };
         let mut image = Image::new(side as u32, side as u32, 4);
         for (i, out) in image.texels.chunks_exact_mut(4).enumerate() {
-            let place = |i: usize| (i as f32 + 0.5) / side;
-            let [x, y] = [i % side as usize, i / side as usize].map(place);
-            out.copy_from_slice(&texel(layer, index, blend(layer, kind, [x, y])));
+            let [x, y] = [i % side as usize, i / side as usize].map(|i| (i as f32 + 0.5) / side);
+            let at = |(steps, level): (f32, f32)| {
+                Place::of(
+                    layer,
+                    kinds,
+                    Vec2::new(x, y) + layer.sun_step * steps,
+                    level,
+                )
+            };
+            let places: Vec<Place> = [(0.0, 0.0)]
+                .into_iter()
+                .chain(towards.iter().copied())
+                .map(at)
+                .collect();
+            out.copy_from_slice(&texel(layer, index, &places));
         }
         image
     };
     layers.map(draw).collect()
 }
 
-/// Both reads of the pack's texture: normal, density, rank.
-fn blend(layer: &LitLayerUniforms, kind: &Texture, [u, v]: [f32; 2]) -> [f32; 4] {
-    let away = layer.second_offset;
-    let [here, other] = [[u, v], [u + away.x, v + away.y]].map(|uv| kind.sample(uv, 0.0));
-    mix(here, other, WEIGHTS[1])
+fn shaded(
+    lit: &LitUniforms,
+    layer: &LitLayerUniforms,
+    places: &[Place],
+    shading: Shading,
+) -> [f32; 4] {
+    match shading {
+        Shading::Scattered => scattered(lit, layer, places),
+        Shading::Paper => texel(lit, layer, places[0].read),
+    }
 }
 
-/// What the blended read of a place makes of a texel.
+/// Height of a layer's cloud, with the rolls of an overcast.
+pub(crate) fn height(lit: &LitUniforms, layer: &LitLayerUniforms, rank: f32, rolls: f32) -> f32 {
+    let amount = even(rank);
+    let alone = layer.height_rate * (amount - layer.threshold.max(0.0)).max(0.0);
+    let [least, rising, own, round] = ROLLS;
+    let rolls = least + rising * (rolls - 0.5) + own * (amount - 0.5);
+    let shut = 0.5 * (rolls + libm::sqrtf(rolls * rolls + round));
+    alone * (1.0 - lit.overcast) + shut * lit.overcast
+}
+
+/// What sunlight passes of its own height and of those towards the sun, where the surface does not lean.
+pub(crate) fn passed(own: f32, towards: [f32; 3]) -> f32 {
+    let over = towards
+        .iter()
+        .zip(RISES)
+        .map(|(height, rise)| (height - rise).max(0.0));
+    OWN * own
+        + over
+            .zip(SHARES)
+            .map(|(over, share)| over * share)
+            .sum::<f32>()
+}
+
+fn scattered(lit: &LitUniforms, layer: &LitLayerUniforms, places: &[Place]) -> [f32; 4] {
+    let [x, y, _, rank] = places[0].read;
+    let heights: Vec<f32> = places
+        .iter()
+        .map(|place| height(lit, layer, place.read[3], place.rolls))
+        .collect();
+    let lean = [x, y].map(|part| layer.relief * (2.0 * part - 1.0));
+    let towards_sun = Vec2::from(lean).dot(layer.sun_uv);
+    let kept = 1.0 - EVENED_RELIEF * lit.overcast;
+    let relief = RELIEF * kept * towards_sun * (RELIEF_FULL * heights[0]).min(1.0);
+    let passed = passed(heights[0], [heights[1], heights[2], heights[3]]) - relief;
+    let amount = even(rank);
+    [
+        libm::exp2f(-MULTIPLE[1] * layer.extinction * passed.max(0.0)),
+        amount,
+        smoothstep(0.0, 1.0, layer.steepness * (amount - layer.threshold)),
+        heights[0].min(1.0),
+    ]
+}
+
+/// What the blended read of a place makes of a texel by the paper's shading.
 pub(crate) fn texel(lit: &LitUniforms, layer: &LitLayerUniforms, read: [f32; 4]) -> [f32; 4] {
     let [x, y, density, rank] = read;
     let amount = even(rank);

@@ -6,7 +6,7 @@ use welkin_runtime::internals::frame::Uniforms;
 use welkin_runtime::params::Shading;
 
 use crate::clouds::Inputs;
-use crate::{fbm, lit, octaves, packed, packed_paper};
+use crate::{fbm, lit, lit_paper, octaves, packed, packed_paper};
 
 /// How many channels of clouds or of a map a method reads in a place.
 pub fn reads(method: Method, shading: Shading, uniforms: &Uniforms) -> usize {
@@ -18,7 +18,7 @@ pub fn reads(method: Method, shading: Shading, uniforms: &Uniforms) -> usize {
         Method::Sprites => 1,
         Method::Octaves => 5,
         Method::Fbm => 3,
-        Method::Lit => lit::reads(&uniforms.lit),
+        Method::Lit => lit::reads(&uniforms.lit, shading),
     }
 }
 
@@ -33,6 +33,9 @@ pub fn layer(method: Method, inputs: &Inputs, direction: Vec3, narrowing: f32) -
         Method::Sprites => packed::upper_layer(inputs, direction, narrowing),
         Method::Octaves => octaves::layer(inputs, direction, narrowing),
         Method::Fbm => fbm::layer(inputs, direction, narrowing),
-        Method::Lit => lit::layer(inputs, direction, narrowing),
+        Method::Lit => match inputs.shading {
+            Shading::Scattered => lit::layer(inputs, direction, narrowing),
+            Shading::Paper => lit_paper::layer(inputs, direction, narrowing),
+        },
     }
 }

@@ -12,7 +12,7 @@ use crate::clouds::Inputs;
 use crate::skybox::{self, Skybox};
 use crate::texture::{Texture, smoothstep};
 use crate::{
-    camera, fbm_map, fbm_pack, flares, galaxy, lightning, lit_map, map, methods, octaves_map,
+    camera, fbm_map, fbm_pack, flares, galaxy, lightning, lit, lit_map, map, methods, octaves_map,
     packed_map, rain, sky, stars, sun,
 };
 
@@ -132,7 +132,7 @@ impl Frame<'_> {
             Method::Sprites => Vec::new(),
             Method::Octaves => vec![octaves_map::render(octaves, self.shading, &self.states)],
             Method::Fbm => vec![fbm_map::render(fbm, &self.packed_octaves())],
-            Method::Lit => lit_map::render(&self.uniforms.lit, &self.twin.layers),
+            Method::Lit => lit_map::render(&self.uniforms.lit, &self.twin.layers, self.shading),
         }
     }
 
@@ -157,7 +157,7 @@ impl Frame<'_> {
                 &self.uniforms.fbm,
                 &self.packed_octaves(),
             )],
-            Method::Lit => lit_map::allowance(&self.uniforms.lit, &self.twin.layers),
+            Method::Lit => lit_map::allowance(&self.uniforms.lit, &self.twin.layers, self.shading),
         }
     }
 
@@ -168,9 +168,12 @@ impl Frame<'_> {
             Method::Sprites => Vec::new(),
             Method::Octaves => vec![g, a, r, b, r],
             Method::Fbm => vec![r, a, g],
-            Method::Lit => vec![r, b, a],
+            Method::Lit => Vec::new(),
         };
-        let mut reads: Vec<f32> = layers.iter().copied().flat_map(ordered).collect();
+        let mut reads: Vec<f32> = match self.method {
+            Method::Lit => lit::in_order_of_reads(layers),
+            _ => layers.iter().copied().flat_map(ordered).collect(),
+        };
         reads.resize(self.nudges.len(), 0.0);
         reads
     }

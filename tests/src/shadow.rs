@@ -2,10 +2,11 @@
 
 use glam::Vec2;
 use welkin_runtime::internals::clouds::lit::shadow::SIDE;
+use welkin_runtime::params::Shading;
 
 use crate::clouds::{self, Inputs};
-use crate::lit;
 use crate::texture::{Texture, smoothstep};
+use crate::{lit, lit_paper};
 
 /// The share of direct light that comes through to the middle of each texel, row by row from the north.
 pub fn render(inputs: &Inputs) -> Vec<f32> {
@@ -17,12 +18,21 @@ pub fn render(inputs: &Inputs) -> Vec<f32> {
 /// The same of one place, in texels from the north-western corner.
 pub fn through(inputs: &Inputs, texel: Vec2) -> f32 {
     let uniforms = inputs.uniforms;
-    let seen = lit::clouds(inputs, |index| {
+    let place = |index: usize| {
         let seen = uniforms.shadow.layers[index];
         (seen.corner + seen.texel * texel, seen.lod)
-    });
-    let open = seen.iter().map(|cloud| 1.0 - cloud.opacity);
-    let covered = 1.0 - open.product::<f32>();
+    };
+    let open: f32 = match inputs.shading {
+        Shading::Scattered => {
+            let seen = lit::seen(inputs, uniforms.lit.light_direction, place);
+            seen.iter().map(|cloud| 1.0 - cloud.opacity).product()
+        }
+        Shading::Paper => {
+            let clouds = lit_paper::clouds(inputs, place);
+            clouds.iter().map(|cloud| 1.0 - cloud.opacity).product()
+        }
+    };
+    let covered = 1.0 - open;
     1.0 - covered * clouds::clearness(&uniforms.clouds, uniforms.lit.light_direction)
 }
 

@@ -4,7 +4,7 @@
 //! Roden and Parberry (ACE 2005, section 3.1): the gradient tints the sun's side (lines 26-27), sunlight
 //! lights it all (28). Clouds fade towards the horizon, as haze takes them.
 //!
-//! By default clouds of three methods scatter what comes through them: light once scattered by a phase function, and, less weakened, light that was
+//! By default clouds of four methods scatter what comes through them: light once scattered by a phase function, and, less weakened, light that was
 //! scattered many times. docs/clouds.md has the numbers.
 //!
 //! # Changes versus the paper
@@ -232,13 +232,6 @@ pub(crate) fn scattered_facing(clouds: &CloudUniforms, cosine: f32) -> f32 {
 /// `cloud_lit` of the shader without sunset.
 pub(crate) fn lit(clouds: &CloudUniforms, [sunlit, skylit]: [f32; 2]) -> Vec3 {
     clouds.sunlight * sunlit + clouds.ambient * skylit
-}
-
-/// `cloud_facing` of the shader, by the cosine of a direction to the sun.
-pub(crate) fn facing(clouds: &CloudUniforms, cosine: f32, opacity: f32) -> f32 {
-    let thin = 1.0 - opacity;
-    let rim = RIM * thin * thin * cosine.max(0.0).powi(8);
-    1.0 + (ABEAM - SIDED * cosine + rim - 1.0) * clouds.low_sun
 }
 
 /// How overcast the sky is at a cover, 0..1: an overcast has no holes.

@@ -4,14 +4,15 @@ use glam::Vec3;
 use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
-use crate::clouds::lit::{self, coverage, map, shadow};
+use crate::clouds::lit::{self, coverage, light, map, paper, shadow};
+use crate::clouds::shared;
 use crate::device::context::Context;
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
 use crate::frame::Uniforms;
 use crate::geometry::part::Part;
 use crate::pack_data::PackData;
-use crate::params::{Method, SkyParams};
+use crate::params::{Method, Shading, SkyParams};
 
 pub(super) struct Lit;
 
@@ -25,7 +26,7 @@ impl CloudMethod for Lit {
     }
 
     fn parts(&self) -> &'static [Part] {
-        &[lit::PART, map::PART, shadow::PART]
+        &[lit::PART, paper::PART, map::PART, shadow::PART]
     }
 
     fn own_layout<'a>(&self, layouts: &'a Layouts) -> Option<&'a wgpu::BindGroupLayout> {
@@ -57,23 +58,35 @@ impl CloudMethod for Lit {
         uniforms.shadow = shadow::uniforms(params, &frame.view, &uniforms.lit);
     }
 
-    fn overcast(&self, _params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
-        lit::overcast(&uniforms.lit)
+    fn overcast(&self, params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
+        match params.shading {
+            Shading::Scattered => light::overcast(&uniforms.lit, &uniforms.clouds),
+            Shading::Paper => paper::overcast(&uniforms.lit),
+        }
     }
 
     fn facing(
         &self,
-        _params: &SkyParams,
+        params: &SkyParams,
         uniforms: &Uniforms,
         direction: Vec3,
-        opacity: f32,
+        _opacity: f32,
     ) -> f32 {
-        lit::facing(&uniforms.lit, &uniforms.clouds, direction, opacity)
+        match params.shading {
+            Shading::Scattered => {
+                let cosine = direction.dot(uniforms.sky.sun_direction);
+                shared::scattered_facing(&uniforms.clouds, cosine)
+            }
+            Shading::Paper => paper::facing(&uniforms.lit, direction),
+        }
     }
 
-    fn mean(&self, _params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> (f32, Vec3) {
-        let opacity = coverage::mean_opacity(&uniforms.lit);
-        (opacity, lit::mean_radiance(&uniforms.lit))
+    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> (f32, Vec3) {
+        let radiance = match params.shading {
+            Shading::Scattered => light::mean_radiance(&uniforms.lit, &uniforms.clouds),
+            Shading::Paper => paper::mean_radiance(&uniforms.lit),
+        };
+        (coverage::mean_opacity(&uniforms.lit), radiance)
     }
 
     fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32 {

@@ -126,7 +126,7 @@ fn the_map_of_layers_changes_by_what_its_second_read_does() {
         for seconds in [0.0, 100.0, 239.99, 1e6] {
             let moments = [seconds, seconds + FRAME_S];
             let [from, to] = moments.map(|t| facts.uniforms(&params, &view(), t, 0.0).lit);
-            let most = lit_map::most_change(&from, &to, &kinds)[0];
+            let most = lit_map::most_change(&from, &to, &kinds, params.shading)[0];
             let [before, after] = moments.map(|t| {
                 gpu::prepare(&mut sky, &params, &view(), t);
                 LIT_CHANNELS.map(|channel| bytes(&sky, channel))

@@ -9,10 +9,10 @@ use glam::{Vec2, Vec3};
 use welkin_pack::{Image, LayerKind, Pack, mapping};
 use welkin_runtime::internals::clouds::lit::LitUniforms;
 use welkin_runtime::internals::pack_data::PackData;
-use welkin_runtime::params::{LitLayer, LitParams};
+use welkin_runtime::params::{LitLayer, LitParams, Shading};
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::film::Film;
-use welkin_tests::{camera, gpu, lit, pack};
+use welkin_tests::{camera, gpu, lit_paper, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 const SIZE: [u32; 2] = [96, 96];
@@ -32,6 +32,7 @@ const LEAST_HALF: f32 = 1.0 / 16_777_216.0;
 fn one(kind: LayerKind) -> SkyParams {
     SkyParams {
         method: Method::Lit,
+        shading: Shading::Paper,
         lit: LitParams::with_layers(&[LitLayer::of(kind, 1.0)]),
         sun: false,
         stars: false,
@@ -275,22 +276,26 @@ fn thick_middles_are_darker_than_thin_edges() {
     let pack = lit_alone();
     let (mut film, mut sky) = (Film::new(), gpu::sky(pack, FORMAT));
     for kind in [LayerKind::Stratocumulus, LayerKind::Cumulus] {
-        for density in [0.2, 0.8] {
+        for (density, shading) in [0.2, 0.8]
+            .into_iter()
+            .flat_map(|d| Shading::ALL.map(|s| (d, s)))
+        {
             let params = SkyParams {
                 time: 0.45,
                 density,
+                shading,
                 ..one(kind)
             };
             for seconds in MOMENTS {
                 let seen = look(&mut film, &mut sky, &params, seconds);
                 let [thin, thick] = [0.1..0.5, 0.97..2.0].map(|alpha| seen.light_of(alpha));
                 println!(
-                    "{} {density}, {seconds} s: thin {thin:.3}, thick {thick:.3}",
+                    "{} {shading:?} {density}, {seconds} s: thin {thin:.3}, thick {thick:.3}",
                     kind.name()
                 );
                 assert!(
                     thick < thin,
-                    "{kind:?} {density} at {seconds} s: {thick}, {thin}"
+                    "{kind:?} {shading:?} {density} at {seconds} s: {thick}, {thin}"
                 );
             }
         }
@@ -349,7 +354,7 @@ fn shade_is_blurred_radially_from_where_the_sun_is_seen() {
             let away = Vec2::from_angle(turn as f32 / 16.0 * std::f32::consts::TAU);
             for distance in [0.1, 1.0, 6.0] {
                 let plane = source + away * distance;
-                let [own, near, far] = lit::places(&lit, 0, plane);
+                let [own, near, far] = lit_paper::places(&lit, 0, plane);
                 assert_eq!(own, plane);
                 let (first, second) = (near - own, far - near);
                 assert!((first - second).length() < 1e-5 * distance, "evenly apart");
@@ -408,7 +413,7 @@ fn a_cloud_is_shaded_by_what_is_between_it_and_the_sun() {
             )
             .distance;
             let plane = Vec2::new(direction.x, direction.z) * distance;
-            let [here, near, far] = lit::places(&lit, 0, plane);
+            let [here, near, far] = lit_paper::places(&lit, 0, plane);
             let (way, thin) = (near - here, own(here));
             let [behind, beyond] = [here - way, here - 2.0 * way].map(own);
             let [near, far] = [near, far].map(own);

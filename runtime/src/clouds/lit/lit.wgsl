@@ -33,89 +33,98 @@ fn lit_grain(index: i32, plane: vec2f, level: f32) -> LitGrain {
     return LitGrain(finer.a - 0.5, LIT_FINER_RELIEF * dot(finer.xy * 2.0 - 1.0, uniforms.lit.layers[index].sun_uv));
 }
 
-// The way from a place of the plane to where sun or moon is seen, no longer than shade reaches.
-fn lit_way(plane: vec2f) -> vec2f {
-    let way = uniforms.lit.light_position - plane;
-    return way * min(1.0, LIT_LONGEST_WAY * inverseSqrt(max(dot(way, way), 1e-12)));
+fn lit_read(index: i32, plane: vec2f, level: f32) -> vec4f {
+    return textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane), index, level);
 }
 
-// What a layer leaves of the light: the shade of the place itself and of two towards the sun, a radial blur.
-fn lit_blurred(index: i32, plane: vec2f, way: vec2f, level: f32, own: f32) -> f32 {
-    let coarse = max(level + uniforms.lit.layers[index].lod_bias, 0.0) + LIT_BLUR_LEVEL;
-    let step = uniforms.lit.layers[index].blur_step;
-    let near = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane + step * way), index, coarse);
-    let far = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane + 2.0 * step * way), index, coarse);
-    return dot(LIT_BLUR, vec3f(own, near.a, far.a));
-}
-
-// A layer along a ray, roughened by the grain.
-struct LitCloud {
-    falls: f32, // light that falls on it: eq. 3
-    opacity: f32,
-    shade: f32, // what it leaves of the light
-}
-
-// With the shade of the place alone.
-fn lit_cloud(index: i32, plane: vec2f, level: f32, grain: LitGrain) -> LitCloud {
-    let at_level = level + uniforms.lit.layers[index].lod_bias;
-    let cloud = textureSampleLevel(lit_map_texture, repeat_sampler, lit_uv(index, plane), index, at_level);
-    let rough = uniforms.lit.layers[index].grain * vec2f(grain.denser, grain.across);
-    let alpha = clamp(cloud.b + rough.x * cloud.b * (1.0 - cloud.b), 0.0, 1.0);
-    return LitCloud(max(cloud.r + rough.y, 0.0), alpha * uniforms.lit.layers[index].opacity, cloud.a);
+// Opacity of a layer, its edges roughened by the grain.
+fn lit_opacity(index: i32, opacity: f32, grain: LitGrain) -> f32 {
+    let rough = uniforms.lit.layers[index].grain * grain.denser;
+    return clamp(opacity + rough * opacity * (1.0 - opacity), 0.0, 1.0) * uniforms.lit.layers[index].opacity;
 }
 
 // What has been drawn of a sky, from the highest layer down.
-struct LitSum {
-    sunlight: f32, // of sun or moon, as a factor on its light, times opacity
-    skylight: f32, // of the sky, likewise
+struct LitLight {
+    shares: vec2f, // of sunlight and of skylight, times opacity
     clear: f32,    // what is left of the light behind
     shade: f32,    // what is left of the light from above
 }
 
-// Draws a layer before those behind it. `through` is eq. 4.
-fn lit_over(behind: LitSum, cloud: LitCloud, through: f32) -> LitSum {
-    let shade = cloud.shade * behind.shade; // eq. 5
-    return LitSum(
-        mix(behind.sunlight, (through + cloud.falls) * shade, cloud.opacity), // eq. 6
-        mix(behind.skylight, LIT_AMBIENT_SHADED + LIT_AMBIENT_BRIGHTER * shade, cloud.opacity),
-        behind.clear * (1.0 - cloud.opacity),
-        behind.shade * (1.0 - LIT_SHADED_BY_LAYER * cloud.opacity),
+// Draws a layer, as its map has it, before those behind it.
+fn lit_before(behind: LitLight, index: i32, cloud: vec4f, grain: LitGrain, direction: vec3f) -> LitLight {
+    let opacity = lit_opacity(index, cloud.b, grain);
+    let own = uniforms.lit.layers[index].grain * (grain.across - LIT_GRAIN_DEEPER * grain.denser);
+    let depth = -log2(max(cloud.r, LIT_DARKEST)) / CLOUD_MULTIPLE.y - LIT_GRAIN_DEPTH * own * cloud.a;
+    let shares = cloud_scattered(direction, max(depth, 0.0), cloud.a);
+    // Under an overcast light is even: no layer is seen by its shade.
+    let shading = mix(opacity, uniforms.lit.layers[index].opacity, uniforms.lit.overcast);
+    return LitLight(
+        mix(behind.shares, shares * vec2f(behind.shade, 1.0), opacity),
+        behind.clear * (1.0 - opacity),
+        behind.shade * (1.0 - LIT_SHADED_BY_LAYER * shading),
     );
 }
 
+// A layer with the sides of its clouds: where there is none over the base's place, the ray goes on, and meets what stands farther away. Near
+// the horizon it meets so many that they close to a bank.
+fn lit_sided(base: vec4f, side: vec4f, far: vec4f, bank: f32) -> vec4f {
+    let own = mix(base, far, LIT_BANK_BLUR * bank);
+    let clear = 1.0 - own.b;
+    let over = clear * clamp((side.b - LIT_SIDE_FROM) / (1.0 - LIT_SIDE_FROM), 0.0, 1.0);
+    let beyond = bank * (clear - over) * (1.0 - (1.0 - far.b) * (1.0 - far.b));
+    let opacity = max(own.b + over + beyond, 1e-4);
+    let shares = vec3f(own.b, over, beyond) / opacity;
+    // Less cloud lies over sides.
+    let light = dot(shares, vec3f(own.r, mix(side.r, 1.0, LIT_SIDE_LIGHT.x), mix(far.r, 1.0, LIT_SIDE_LIGHT.y)));
+    return vec4f(light, own.g, opacity, dot(shares, vec3f(own.a, side.a, far.a)));
+}
+
+// The lowest layer of an iteration where a ray meets it, with the sides of its clouds.
+fn lit_low(first: i32, direction: vec3f, plane: vec2f, level: f32) -> vec4f {
+    let flat = max(length(direction.xz), 1e-4);
+    let rise = min(uniforms.lit.layers[first].side * flat / max(direction.y, 1e-4), LIT_MOST_SIDE);
+    let out = direction.xz * (rise / flat);
+    let own_level = level + uniforms.lit.layers[first].lod_bias;
+    let base = lit_read(first, plane, own_level);
+    let side = lit_read(first, plane + out, max(own_level, 0.0) + LIT_SIDE_LEVELS.x);
+    let far = lit_read(first, plane + 2.0 * out, max(own_level, 0.0) + LIT_SIDE_LEVELS.y);
+    return lit_sided(base, side, far, 1.0 - smoothstep(LIT_BANK.x, LIT_BANK.y, direction.y));
+}
+
+// How much coarser clouds are read towards the horizon, in levels.
+fn lit_softer(direction: vec3f) -> f32 {
+    return LIT_SOFTER.x * (1.0 - smoothstep(0.0, LIT_SOFTER.y, direction.y));
+}
+
 // Three layers, their reads first: none waits for another. Not a loop: constants at known places cost nothing.
-fn lit_iteration(behind: LitSum, first: i32, plane: vec2f, level: f32, through: f32) -> LitSum {
+fn lit_three(behind: LitLight, first: i32, direction: vec3f, plane: vec2f, level: f32) -> LitLight {
     let grain = lit_grain(first, plane, level);
-    let way = lit_way(plane);
-    var low = lit_cloud(first, plane, level, grain);
-    var middle = lit_cloud(first + 1, plane, level, grain);
-    var high = lit_cloud(first + 2, plane, level, grain);
-    low.shade = lit_blurred(first, plane, way, level, low.shade);
-    middle.shade = lit_blurred(first + 1, plane, way, level, middle.shade);
-    high.shade = lit_blurred(first + 2, plane, way, level, high.shade);
-    return lit_over(lit_over(lit_over(behind, high, through), middle, through), low, through);
+    let low = lit_low(first, direction, plane, level);
+    let middle = lit_read(first + 1, plane, level + uniforms.lit.layers[first + 1].lod_bias);
+    let high = lit_read(first + 2, plane, level + uniforms.lit.layers[first + 2].lod_bias);
+    var sum = lit_before(behind, first + 2, high, grain, direction);
+    sum = lit_before(sum, first + 1, middle, grain, direction);
+    return lit_before(sum, first, low, grain, direction);
 }
 
 // Radiance and opacity of the clouds along a unit direction above the horizon.
 fn lit_layer(direction: vec3f, narrowing: f32) -> vec4f {
+    if SCATTERED {
+        return lit_scattered_layer(direction, narrowing);
+    }
+    return lit_paper_layer(direction, narrowing);
+}
+
+fn lit_scattered_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let distance = lit_intersect(direction);
     let plane = direction.xz * distance;
-    let level = lit_level(distance, direction, narrowing);
-    let scattered = uniforms.lit.k1 + uniforms.lit.k2 * dot(direction, uniforms.lit.light_direction);
-    let through = pow(max(scattered, 0.0), uniforms.lit.m); // eq. 4
-    var sum = LitSum(0.0, 0.0, 1.0, 1.0);
+    let level = lit_level(distance, direction, narrowing) + lit_softer(direction);
+    var sum = LitLight(vec2f(0.0), 1.0, 1.0);
     if uniforms.lit.count > LIT_LAYERS_AN_ITERATION {
-        sum = lit_iteration(sum, LIT_LAYERS_AN_ITERATION, plane, level, through);
+        sum = lit_three(sum, LIT_LAYERS_AN_ITERATION, direction, plane, level);
     }
-    sum = lit_iteration(sum, 0, plane, level, through);
+    sum = lit_three(sum, 0, direction, plane, level);
     let alpha = 1.0 - sum.clear;
-    // A low sun lights the sides of clouds that are seen away from it, where eq. 3 knows their undersides alone.
-    let away = 0.5 - 0.5 * dot(direction, uniforms.lit.light_direction);
-    let sides = LIT_SIDES * uniforms.clouds.low_sun * away * sum.skylight;
-    let sunlight = sum.sunlight * cloud_facing(direction, alpha) + sides;
-    var radiance = sunlight * uniforms.lit.light + sum.skylight * uniforms.lit.ambient;
-    if uniforms.clouds.sunset > 0.0 {
-        radiance *= mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
-    }
-    return vec4f(radiance / max(alpha, 1e-4), alpha * cloud_clearness(direction));
+    let radiance = cloud_lit(sum.shares, cloud_tint(direction)) / max(alpha, 1e-4);
+    return vec4f(radiance, alpha * cloud_clearness(direction));
 }

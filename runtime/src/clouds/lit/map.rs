@@ -10,9 +10,17 @@
 //!   integral makes it even again: what cover cuts is an exact share.
 //! - `C` of eq. 5 is the share that the thickness towards the sun takes, `1 - 2^(-w s)`: a sum of coverages goes beyond 1.
 //!
+//! - By default the map holds what [`crate::clouds::shared`] lights clouds by: heights here and at three places towards the sun, farther away under a
+//!   low one, are summed as far as they reach above the ray, and the slope of the clouds' surface, by their normals, adds relief.
+//! - An overcast has rolls of a kilometre or two ([`ROLLS`]), of the lumps of cumulus and the bands of cirrus, in place of the noise's own lumps.
+//! - The fibres of cirrus are bent by two shears: straight ones would be streaks from one point of the horizon.
+//!
 //! # Practice
-//! Two reads a texel and layer, 256x256 texels. Channels: R is `LT` (eq. 3), G the amount of
-//! cloud before cover, B the opacity, A the shade.
+//! 256x256 texels. Two reads a texel and layer by the paper's shading: R is `LT` (eq. 3), G the amount of cloud before cover, B the opacity, A the
+//! shade. Else eight, or sixteen under an overcast: R is what is left of light that is scattered many times, A the height.
+
+use glam::Vec3;
+use welkin_pack::LayerKind;
 
 use crate::device::layouts::Layouts;
 use crate::device::map::{FORMAT, Map};
@@ -25,6 +33,19 @@ pub const PART: Part = Part {
         ("LIT_LEAST_UP", Value::F32(LEAST_UP)),
         ("LIT_FIRST_WEIGHT", Value::F32(WEIGHTS[0])),
         ("LIT_SECOND_WEIGHT", Value::F32(WEIGHTS[1])),
+        ("LIT_CUMULUS", Value::Int(LayerKind::Cumulus as i32)),
+        ("LIT_CIRRUS", Value::Int(LayerKind::Cirrus as i32)),
+        ("LIT_BENDS", Value::Vec4(BENDS)),
+        ("LIT_ROLLS", Value::Vec4(ROLLS)),
+        ("LIT_ROLL_LEVELS", Value::Vec2(ROLL_LEVELS)),
+        ("LIT_STEPS", Value::Vec3(Vec3::from_array(STEPS))),
+        ("LIT_APART", Value::Vec3(Vec3::from_array(APART))),
+        ("LIT_RISES", Value::Vec3(Vec3::from_array(RISES))),
+        ("LIT_SHARES", Value::Vec3(Vec3::from_array(SHARES))),
+        ("LIT_OWN", Value::F32(OWN)),
+        ("LIT_RELIEF", Value::F32(RELIEF)),
+        ("LIT_RELIEF_FULL", Value::F32(RELIEF_FULL)),
+        ("LIT_EVENED_RELIEF", Value::F32(EVENED_RELIEF)),
         (
             "LIT_LAYERS_AN_ITERATION",
             Value::Int(LAYERS_AN_ITERATION as i32),
@@ -40,6 +61,26 @@ pub const SIDE: u32 = 256;
 pub const LEAST_UP: f32 = 0.04;
 /// Weights of the two reads, the larger first; together 1.
 pub const WEIGHTS: [f32; 2] = [0.6, 0.4];
+
+/// How far the fibres of cirrus are bent, in tiles: across by waves of one and of half a tile, along by waves of one and of a third.
+pub const BENDS: [f32; 4] = [0.10, 0.05, 0.09, 0.04];
+/// Height of an overcast where its rolls have their mean, what rolls and the amount of cloud add, and how round its least height is. Numbers here
+/// and below are chosen by eye.
+pub const ROLLS: [f32; 4] = [0.7, 2.2, 0.25, 0.1];
+/// Levels at which lumps and fibres are read as rolls: bands of one to two kilometres.
+pub const ROLL_LEVELS: [f32; 2] = [2.0, 3.0];
+/// Places towards the sun, in steps, and how far each is from the one before.
+pub const STEPS: [f32; 3] = [1.0, 2.5, 5.5];
+pub const APART: [f32; 3] = [1.0, 1.5, 3.0];
+/// How high the ray has risen there, as heights of clouds.
+pub const RISES: [f32; 3] = [0.12, 0.3, 0.66];
+/// What the light passes of the heights there over the ray, and of the place's own.
+pub const SHARES: [f32; 3] = [0.55, 0.8, 1.2];
+pub const OWN: f32 = 0.5;
+/// What a slope towards the sun takes of that, the height, as 1 over it, from which all of it counts, and what an overcast takes of it.
+pub const RELIEF: f32 = 0.25;
+pub const RELIEF_FULL: f32 = 4.0;
+pub const EVENED_RELIEF: f32 = 0.7;
 
 /// The pass on a device.
 #[derive(Debug)]

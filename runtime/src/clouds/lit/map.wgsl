@@ -27,23 +27,84 @@ struct LitNoise {
     amount: f32,
 }
 
-fn lit_noise(layer: LitLayerUniforms, uv: vec2f) -> LitNoise {
-    let kind = i32(layer.kind);
-    let here = textureSampleLevel(layers_texture, repeat_sampler, uv, kind, 0.0);
-    let other = textureSampleLevel(layers_texture, repeat_sampler, uv + layer.second_offset, kind, 0.0);
-    let blend = LIT_FIRST_WEIGHT * here + LIT_SECOND_WEIGHT * other;
+// A wave of period 1 between -1 and 1, of two parabolas.
+fn lit_wave(x: f32) -> f32 {
+    let t = 2.0 * fract(x) - 1.0;
+    return 4.0 * t * (abs(t) - 1.0);
+}
+
+// The place whose fibres a place of cirrus has. Two shears bend them: areas stay as large as they are, and shares of the layer with them.
+fn lit_bent(uv: vec2f) -> vec2f {
+    let v = uv.y + LIT_BENDS.x * lit_wave(uv.x) + LIT_BENDS.y * lit_wave(2.0 * uv.x + 0.16);
+    return vec2f(uv.x + LIT_BENDS.z * lit_wave(v + 0.32) + LIT_BENDS.w * lit_wave(3.0 * v), v);
+}
+
+// The first read of a layer.
+fn lit_first(kind: i32, uv: vec2f, level: f32) -> vec4f {
+    if kind == LIT_CIRRUS {
+        return textureSampleLevel(layers_texture, repeat_sampler, 2.0 * lit_bent(uv), kind, level + 1.0);
+    }
+    return textureSampleLevel(layers_texture, repeat_sampler, uv, kind, level);
+}
+
+// The second, of lumps, which moves against the first.
+fn lit_second(layer: LitLayerUniforms, uv: vec2f, level: f32) -> vec4f {
+    return textureSampleLevel(layers_texture, repeat_sampler, uv + layer.second_offset, LIT_CUMULUS, level);
+}
+
+fn lit_noise(layer: LitLayerUniforms, uv: vec2f, level: f32) -> LitNoise {
+    let blend = LIT_FIRST_WEIGHT * lit_first(i32(layer.kind), uv, level)
+        + LIT_SECOND_WEIGHT * lit_second(layer, uv, level + layer.second_level);
     return LitNoise(blend.rg, blend.b, lit_even(blend.a));
 }
 
-// R: light that falls on the cloud; G: the amount of cloud; B: opacity; A: shade by the place alone.
+// How high the cloud of a place is, 1 for a thick one. An overcast is as high everywhere but for its rolls.
+fn lit_height(layer: LitLayerUniforms, uv: vec2f, amount: f32, level: f32) -> f32 {
+    let height = layer.height_rate * max(amount - max(layer.threshold, 0.0), 0.0);
+    if uniforms.lit.overcast == 0.0 {
+        return height;
+    }
+    let lumps = lit_second(layer, uv, level + LIT_ROLL_LEVELS.x).b;
+    let bands = textureSampleLevel(layers_texture, repeat_sampler, lit_bent(uv), LIT_CIRRUS, level + LIT_ROLL_LEVELS.y).b;
+    let rolls = LIT_ROLLS.x + LIT_ROLLS.y * (0.5 * (lumps + bands) - 0.5) + LIT_ROLLS.z * (amount - 0.5);
+    return mix(height, 0.5 * (rolls + sqrt(rolls * rolls + LIT_ROLLS.w)), uniforms.lit.overcast);
+}
+
+// The same so many steps towards the sun.
+fn lit_height_towards(layer: LitLayerUniforms, uv: vec2f, steps: f32, level: f32) -> f32 {
+    let there = uv + steps * layer.sun_step;
+    return lit_height(layer, there, lit_noise(layer, there, level).amount, level);
+}
+
+// R: what is left of light that was scattered many times; G: the amount of cloud; B: opacity; A: height.
+fn lit_scattered_texel(layer: LitLayerUniforms, uv: vec2f, cloud: LitNoise, slope: vec2f, alpha: f32) -> vec4f {
+    let height = lit_height(layer, uv, cloud.amount, 0.0);
+    let step_texels = length(layer.sun_step) * f32(textureDimensions(layers_texture).x);
+    let levels = max(log2(0.5 * step_texels * LIT_APART), vec3f(0.0));
+    let towards = vec3f(
+        lit_height_towards(layer, uv, LIT_STEPS.x, levels.x),
+        lit_height_towards(layer, uv, LIT_STEPS.y, levels.y),
+        lit_height_towards(layer, uv, LIT_STEPS.z, levels.z),
+    );
+    let evened = 1.0 - LIT_EVENED_RELIEF * uniforms.lit.overcast;
+    let relief = LIT_RELIEF * evened * dot(slope, layer.sun_uv) * min(LIT_RELIEF_FULL * height, 1.0);
+    let above = max(towards - LIT_RISES, vec3f(0.0));
+    let passed = max(LIT_OWN * height + dot(LIT_SHARES, above) - relief, 0.0);
+    return vec4f(exp2(-CLOUD_MULTIPLE.y * layer.extinction * passed), cloud.amount, alpha, min(height, 1.0));
+}
+
+// With the paper's shading R: light that falls on the cloud; G: the amount of cloud; B: opacity; A: shade by the place alone.
 fn lit_map_texel(index: i32, uv: vec2f) -> vec4f {
     let layer = uniforms.lit.layers[index];
-    let cloud = lit_noise(layer, uv);
+    let cloud = lit_noise(layer, uv, 0.0);
     let slope = layer.relief * (cloud.normal * 2.0 - 1.0);
-    let upward = sqrt(max(1.0 - dot(slope, slope), LIT_LEAST_UP));
-    let falls = max(dot(slope, layer.sun_uv) + upward * uniforms.lit.light_direction.y, 0.0); // eq. 3
     let thickness = max(cloud.amount - layer.threshold, 0.0);
     let alpha = smoothstep(0.0, 1.0, layer.steepness * thickness);
+    if SCATTERED {
+        return lit_scattered_texel(layer, uv, cloud, slope, alpha);
+    }
+    let upward = sqrt(max(1.0 - dot(slope, slope), LIT_LEAST_UP));
+    let falls = max(dot(slope, layer.sun_uv) + upward * uniforms.lit.light_direction.y, 0.0); // eq. 3
     // Eq. 5 with C = 1 - 2^(-w s), so that it never ends: (1 - C)^m.
     let shade = exp2(-uniforms.lit.m * layer.shade_rate * lit_thick(layer, cloud));
     return vec4f(falls, cloud.amount, alpha, shade);

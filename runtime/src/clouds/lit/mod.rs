@@ -7,6 +7,9 @@
 //! `SH = (1 - sum C)^m` (eq. 5), blurred radially from where the sun stands; and `F = (LS + LT) SH` (eq. 6). Up to
 //! three layers are drawn in an iteration.
 //!
+//! That is [`Shading::Paper`](crate::params::Shading). By default ([`crate::clouds::lit::light`]) clouds scatter what comes through them, as those of `packed`, `octaves`
+//! and `fbm` do, by the depth towards the sun that the map holds.
+//!
 //! # Changes versus the paper
 //! - The dome is intersected for each pixel: with the radius a, the height b and the flattening `f = b / a`, a ray meets it at
 //!   `t = 1 / sqrt(f^2 + (1 - f^2) y^2)` heights, y the sine of the elevation. [`mesh`] gives the paper's grid.
@@ -15,9 +18,12 @@
 //! - Cover is calibrated: shares of [`SkyParams::cover`] go to the layers such that together they cover it.
 //! - Normals, opacity and shade are functions of the place in a layer, so they are drawn off screen ([`crate::clouds::lit::map`]). Layers shade
 //!   the layers below them by what they leave of the light, a product in place of the paper's sum.
-//! - The radial blur has three places on the way to where the sun is seen on the dome ([`BLUR`]), as far apart as the light of a sun at
-//!   that place would go through a cloud of the kind's thickness; its length, which the paper does not tell, ends at [`LONGEST_WAY`].
+//! - The radial blur has three places on the way to where the sun is seen on the dome ([`paper::BLUR`]), as far apart as the light of a sun at
+//!   that place would go through a cloud of the kind's thickness; its length, which the paper does not tell, ends at [`paper::LONGEST_WAY`].
 //! - Light of the sky is added: the paper's shaded clouds are black.
+//! - The lowest layer of an iteration is read three times by default: where the ray meets its base, and farther away, where the ray has risen into the
+//!   clouds. So one sees sides, and towards the horizon clouds close to a bank, which a flat layer's do not.
+//! - The second read is of cumulus for every kind: its lumps gather the first read's. Fibres of cirrus are bent ([`map::BENDS`]).
 //! - Normals are those of a flat layer, wherever it hangs on the dome: the dome brings the horizon near, clouds do not lean. So all of `LT`
 //!   is in the map.
 //! - In the night the moon lights the clouds; it is full and stands opposite the sun.
@@ -26,20 +32,24 @@
 //!   that roughens the edges and the light of its layers.
 //!
 //! # Practice
-//! Ten reads of texture arrays an iteration of three layers, used or not. Four passes of 256 texels and less an iteration.
+//! Six reads of texture arrays an iteration of three layers, used or not; ten by the paper's shading. Four passes of 256 texels and less an iteration.
 
 pub mod coverage;
+pub mod light;
+mod look;
 pub mod map;
+pub mod paper;
 pub mod shadow;
 
 use glam::{DMat2, DVec2, Vec2, Vec3, Vec3Swizzles};
-use welkin_pack::LayerKind;
 
+use self::look::look;
+use crate::clouds::march::SunCell;
 use crate::clouds::shared::{
-    self, CloudUniforms, CloudView, OPAQUE, inverse_smoothstep, offset, overcast_weight,
+    CloudUniforms, CloudView, OPAQUE, inverse_smoothstep, offset, overcast_weight, way_through,
 };
 use crate::geometry::dome::{self, Hit, Mesh};
-use crate::geometry::math::{normal_share, smoothstep};
+use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
 use crate::params::{LitLayer, MAX_LAYERS, SkyParams};
@@ -52,13 +62,17 @@ pub const PART: Part = Part {
         ("LIT_FINER_RELIEF", Value::F32(FINER_RELIEF)),
         ("LIT_SHADED_BY_LAYER", Value::F32(SHADED_BY_LAYER)),
         ("LIT_LEAST_STRETCH", Value::F32(LEAST_STRETCH)),
-        ("LIT_BLUR_LEVEL", Value::F32(BLUR_LEVEL)),
-        ("LIT_LONGEST_WAY", Value::F32(LONGEST_WAY)),
+        ("LIT_GRAIN_DEPTH", Value::F32(GRAIN_DEPTH)),
+        ("LIT_GRAIN_DEEPER", Value::F32(GRAIN_DEEPER)),
+        ("LIT_DARKEST", Value::F32(DARKEST)),
+        ("LIT_SIDE_FROM", Value::F32(SIDE_FROM)),
+        ("LIT_SIDE_LIGHT", Value::Vec2(SIDE_LIGHT)),
+        ("LIT_SIDE_LEVELS", Value::Vec2(SIDE_LEVELS)),
+        ("LIT_MOST_SIDE", Value::F32(MOST_SIDE)),
+        ("LIT_BANK", Value::Vec2(BANK)),
+        ("LIT_BANK_BLUR", Value::F32(BANK_BLUR)),
+        ("LIT_SOFTER", Value::Vec2(SOFTER)),
         ("LIT_FINER_START", Value::Vec2(FINER_START)),
-        ("LIT_SIDES", Value::F32(SIDES)),
-        ("LIT_AMBIENT_SHADED", Value::F32(AMBIENT[0])),
-        ("LIT_AMBIENT_BRIGHTER", Value::F32(AMBIENT[1])),
-        ("LIT_BLUR", Value::Vec3(Vec3::from_array(BLUR))),
     ],
     structs: &[LitLayerUniforms::WGSL, LitUniforms::WGSL],
     wgsl: include_str!("lit.wgsl"),
@@ -95,8 +109,20 @@ uniforms! {
         sun_uv: Vec2,
         /// How much the grain roughens it.
         grain: f32,
+        /// Level of the second read.
+        second_level: f32,
+        /// A step towards the sun, in tiles.
+        sun_step: Vec2,
+        /// Halvings of sunlight by a height of 1.
+        extinction: f32,
+        /// Height of a cloud against its thickness, a share of the layer's distribution.
+        height_rate: f32,
+        /// How far from its base one sees the side of a cloud at 45 degrees, in heights of the dome.
+        side: f32,
         /// Nothing.
         _pad: f32,
+        /// Nothing.
+        _pad2: Vec2,
     }
 
     /// Clouds of the lit method.
@@ -119,8 +145,10 @@ uniforms! {
         k2: f32,
         /// Where sun or moon is seen on the dome's plane, in its heights.
         light_position: Vec2,
+        /// How overcast the sky is, 0..1.
+        overcast: f32,
         /// Nothing.
-        _pad: Vec2,
+        _pad: f32,
         /// Light of the sky on clouds.
         ambient: Vec3,
         /// The paper's m.
@@ -135,69 +163,28 @@ pub const FINER: f32 = 5.0;
 /// Where the grain starts.
 pub const FINER_START: [f32; 2] = [0.29, 0.63];
 /// How much of the grain's normal is added, times the layer's share of the grain.
-pub const FINER_RELIEF: f32 = 0.19;
+pub const FINER_RELIEF: f32 = 0.12;
 /// What a layer behind leaves of the light where it is opaque.
 pub const SHADED_BY_LAYER: f32 = 0.45;
-/// Shares of a place's own shade and of those of two places towards the sun in its blurred shade: nearer cloud counts more.
-pub const BLUR: [f32; 3] = [3.0 / 6.0, 2.0 / 6.0, 1.0 / 6.0];
-/// How much coarser those two are read: they are several texels apart.
-pub const BLUR_LEVEL: f32 = 1.5;
-/// The longest way to the sun that the blur takes a share of, in heights of the dome: so far is the sun on it at 22 degrees.
-pub const LONGEST_WAY: f32 = 2.5;
-/// The light of the sky on a cloud in full shade, and what light adds to it.
-pub const AMBIENT: [f32; 2] = [0.62, 0.38];
+/// How much less deep in the cloud a place is whose grain's normal meets the sun, in halvings, and how much of its density makes it deeper.
+pub const GRAIN_DEPTH: f32 = 1.2;
+pub const GRAIN_DEEPER: f32 = 0.048;
+/// The least that the map tells of what was scattered many times.
+pub const DARKEST: f32 = 0.02;
+/// The opacity at its base from which a cloud has a side, and how much lighter sides are than the base: of the near one, and of the far ones.
+pub const SIDE_FROM: f32 = 0.3;
+pub const SIDE_LIGHT: [f32; 2] = [0.25, 0.15];
+/// How much coarser both are read, and how far from the base the near one is read at most, in heights of the dome.
+pub const SIDE_LEVELS: [f32; 2] = [1.2, 2.5];
+pub const MOST_SIDE: f32 = 0.16;
+/// Sines of the elevation below which clouds are a bank, and from which they stand alone; how much of a bank is read coarser.
+pub const BANK: [f32; 2] = [0.05, 0.32];
+pub const BANK_BLUR: f32 = 0.6;
+/// How much coarser clouds on the horizon are read, and the sine of the elevation from which all is sharp: there the air and the clouds' height, which
+/// a flat layer lacks, take what is small.
+pub const SOFTER: [f32; 2] = [2.8, 0.6];
 /// The least radial stretch of a texel, over the tangential one, that chooses the level of detail.
 pub const LEAST_STRETCH: f32 = 0.25;
-
-/// How layers of a kind look.
-struct Look {
-    /// How far the texture reaches, in metres, at height 0 and 1.
-    tile_m: [f64; 2],
-    /// Thickness, as a share of the layer's distribution, at which it is opaque.
-    opaque: f32,
-    /// Opacity where it is thick.
-    opacity: f32,
-    /// How fast shade deepens.
-    shade: f32,
-    /// Factor on the horizontal part of normals.
-    relief: f32,
-    /// How much the grain roughens it, 0 for not at all.
-    grain: f32,
-    /// How thick such clouds are, in metres: how far their shade reaches.
-    thickness_m: f64,
-}
-
-const fn look(kind: LayerKind) -> Look {
-    match kind {
-        LayerKind::Stratocumulus => Look {
-            tile_m: [10_000.0, 5_000.0],
-            opaque: 0.30,
-            opacity: 1.0,
-            shade: 2.1,
-            relief: 1.0,
-            grain: 2.6,
-            thickness_m: 350.0,
-        },
-        LayerKind::Cumulus => Look {
-            tile_m: [10_500.0, 5_500.0],
-            opaque: 0.20,
-            opacity: 1.0,
-            shade: 3.0,
-            relief: 1.0,
-            grain: 2.6,
-            thickness_m: 700.0,
-        },
-        LayerKind::Cirrus => Look {
-            tile_m: [42_000.0, 24_000.0],
-            opaque: 0.9,
-            opacity: 0.65,
-            shade: 0.5,
-            relief: 0.5,
-            grain: 0.0,
-            thickness_m: 200.0,
-        },
-    }
-}
 
 /// How layers are turned against the world, in radians: no two alike, none along an axis.
 const TURNS: [f64; MAX_LAYERS] = [0.43, 1.29, 2.6, 3.7, 4.4, 5.6];
@@ -210,8 +197,8 @@ const STARTS: [DVec2; MAX_LAYERS] = [
     DVec2::new(0.07, 0.17),
     DVec2::new(0.69, 0.61),
 ];
-/// Cells of the kinds' noise across the tile, roughly: a cloud has formed anew when the second read has gone one.
-const CELLS: f64 = 12.0;
+/// Cells of the second read across the tile, roughly: a cloud has formed anew when the second read has gone one.
+const CELLS: f64 = 6.0;
 /// The way of the second read, turned against the layer.
 const CHANGE_WAY: DVec2 = DVec2::new(0.8, -0.6);
 /// How fast shade deepens at density 0 and what density 1 adds, as factors on that of the kind. Chosen by eye.
@@ -220,17 +207,20 @@ const SHADE_OF_DENSITY: [f32; 2] = [0.6, 0.8];
 const EVENED: f32 = 0.65;
 /// Cover of a layer below which it is a trace.
 const TRACE: f32 = 0.02;
-/// Cover of a layer from which it shuts: more than seven oktas, which are to be seven.
+/// Cover from which the sky shuts: more than seven oktas, which are to be seven.
 const SHUTTING: f32 = 0.9;
-/// Standard deviation of a component of the clouds' normals: those of the default recipe's layers have 0.33 to 0.39, and two reads are blended.
-const NORMAL_SPREAD: f32 = 0.26;
-/// Light of a sun on the horizon on the sides of clouds opposite it, where shade leaves all: chosen by eye.
-pub const SIDES: f32 = 0.5;
 
+/// Height of a cloud that is as thick as its layer's share of the sky, and the least such share that counts.
+const HEIGHT: f32 = 0.7;
+const LEAST_SHARE: f32 = 0.4;
+/// How high the ray towards the sun has risen after a step, in thicknesses of the clouds.
+const FIRST_RISE: f64 = 0.15;
+/// The lowest sun that the march knows, in radians: places towards a lower one would lie in other clouds.
+const LEAST_MARCH_RAD: f64 = 0.4;
+/// How many amounts of cloud a mean is taken of.
+const AMOUNTS: usize = 32;
 /// How much the cut goes below 0 in an overcast.
-const OVERCAST: f32 = 0.5;
-/// Azimuths over which eq. 4 is averaged around half of the horizon; the other half is the same.
-const AZIMUTHS: u32 = 8;
+const OVERCAST: f32 = 1.0;
 /// The opacity above which a direction counts as covered: where the cut lies.
 const COVERED: f32 = OPAQUE;
 
@@ -283,6 +273,7 @@ pub fn uniforms(
         light_direction: sun,
         k2: own.k2,
         light_position: seen.xz(),
+        overcast: overcast_weight(params.cover),
         ambient: clouds.ambient,
         m: own.m,
         layers,
@@ -337,6 +328,7 @@ fn layer_uniforms(
     // Of two steps each way; a viewer near the layer sees no farther than to the sun.
     let step = 0.5 * (look.thickness_m / (height_m * near)).min(1.0);
     let steepness = (1.0 + params.density) / look.opaque;
+    let threshold = cut(cover, steepness, look.opacity) - shut(params.cover);
     let seen = axes * near;
     let [thin, more] = SHADE_OF_DENSITY;
     LitLayerUniforms {
@@ -344,7 +336,7 @@ fn layer_uniforms(
         south_axis: seen.y_axis.as_vec2(),
         offset: offset(STARTS[index] + axes * (view.place(height_m) - way)),
         second_offset: offset(STARTS[5 - index] + CHANGE_WAY * (intervals / CELLS)),
-        threshold: cut(cover, steepness, look.opacity),
+        threshold,
         steepness,
         opacity: look.opacity,
         shade_rate: look.shade
@@ -356,6 +348,11 @@ fn layer_uniforms(
         relief: look.relief,
         sun_uv: (turn * sun.xz().as_dvec2()).as_vec2(),
         grain: look.grain,
+        second_level: look.second_level,
+        sun_step: (turn * march_step(sun) * (look.thickness_m / tile_m)).as_vec2(),
+        extinction: look.extinction * (1.0 + params.density) * way_through(sun.y),
+        height_rate: HEIGHT / (1.0 - threshold.max(0.0)).max(LEAST_SHARE),
+        side: step as f32,
         ..Default::default()
     }
 }
@@ -365,93 +362,32 @@ fn cut(cover: f32, steepness: f32, opacity: f32) -> f32 {
     let thin = inverse_smoothstep(COVERED / opacity) / steepness;
     // A trace of cover brings its thin edge in by degrees.
     let edge = thin * (cover / TRACE).min(1.0);
-    1.0 - cover - edge - OVERCAST * smoothstep(SHUTTING, 1.0, cover)
+    1.0 - cover - edge
 }
 
-/// Radiance of an overcast sky far away: layers where they have their mean, flat, around the whole horizon.
-pub fn overcast(lit: &LitUniforms) -> Vec3 {
-    let [lowest, ..] = &lit.layers;
-    let thickness = (0.5 - lowest.threshold.max(0.0)).max(0.0);
-    let shade = (-lit.m * lowest.shade_rate * thickness).exp2() * shade_from_above(lit, 0);
-    lit.light * (mean_light(lit) * shade) + lit.ambient * (AMBIENT[0] + AMBIENT[1] * shade)
+/// How much lower every layer is cut where the sky shuts.
+fn shut(cover: f32) -> f32 {
+    OVERCAST * smoothstep(SHUTTING, 1.0, cover)
+}
+
+/// A step towards the sun, in thicknesses of the clouds (east, south).
+fn march_step(sun: Vec3) -> DVec2 {
+    let cell = SunCell::of(sun);
+    cell.towards * (FIRST_RISE / cell.elevation_rad.max(LEAST_MARCH_RAD).tan())
 }
 
 /// Mean opacity of a layer.
 pub(crate) fn layer_opacity(layer: &LitLayerUniforms) -> f32 {
-    layer_means(layer, 0.0)[0]
+    let opacity = |amount: f32| {
+        let thickness = (amount - layer.threshold).max(0.0);
+        layer.opacity * smoothstep(0.0, 1.0, layer.steepness * thickness)
+    };
+    amounts().map(opacity).sum::<f32>() / AMOUNTS as f32
 }
 
-/// Mean opacity of a layer, and the mean of what its clouds leave of the light.
-fn layer_means(layer: &LitLayerUniforms, m: f32) -> [f32; 2] {
-    const AMOUNTS: usize = 32;
-    let (mut opacity, mut left) = (0.0, 0.0);
-    for i in 0..AMOUNTS {
-        let thickness = ((i as f32 + 0.5) / AMOUNTS as f32 - layer.threshold.max(0.0)).max(0.0);
-        let cut = ((i as f32 + 0.5) / AMOUNTS as f32 - layer.threshold).max(0.0);
-        let alpha = layer.opacity * smoothstep(0.0, 1.0, layer.steepness * cut);
-        opacity += alpha;
-        left += alpha * (-m * layer.shade_rate * thickness).exp2();
-    }
-    [opacity / AMOUNTS as f32, left / opacity.max(1e-6)]
-}
-
-/// What layers over the one of an index leave of the light, on average.
-fn shade_from_above(lit: &LitUniforms, index: usize) -> f32 {
-    let above = lit.layers[..lit.count as usize].iter().skip(index + 1);
-    let left = above.map(|layer| 1.0 - SHADED_BY_LAYER * layer_opacity(layer));
-    left.product()
-}
-
-/// Sunlight of a flat cloud around the whole horizon: what falls on it and the mean of eq. 4.
-fn mean_light(lit: &LitUniforms) -> f32 {
-    let sun = lit.light_direction;
-    let level = sun.xz().length();
-    let azimuth_rad = |i: u32| (i as f32 + 0.5) / AZIMUTHS as f32 * std::f32::consts::PI;
-    let through = (0..AZIMUTHS).map(|i| through(lit, level * azimuth_rad(i).cos()));
-    sun.y.max(0.0) + through.sum::<f32>() / AZIMUTHS as f32
-}
-
-/// Eq. 4 over L, by the cosine to the sun.
-fn through(lit: &LitUniforms, cosine: f32) -> f32 {
-    (lit.k1 + lit.k2 * cosine).max(0.0).powf(lit.m)
-}
-
-/// Mean of eq. 3 over clouds whose normals lean to all sides: of a normal distribution about that of a flat one, what is above 0.
-fn mean_fall(sun: Vec3) -> f32 {
-    let spread = NORMAL_SPREAD * sun.xz().length();
-    let flat = sun.y * (1.0 - 2.0 * NORMAL_SPREAD * NORMAL_SPREAD).sqrt();
-    if spread < 1e-3 {
-        return flat.max(0.0);
-    }
-    let place = flat / spread;
-    let density = (-0.5 * place * place).exp() / std::f32::consts::TAU.sqrt();
-    flat * normal_share(place) + spread * density
-}
-
-/// Mean radiance of the clouds that are there, where [`facing`] is 1: every layer shows through those below it.
-pub(crate) fn mean_radiance(lit: &LitUniforms) -> Vec3 {
-    let (mut sum, mut clear) = (Vec3::ZERO, 1.0);
-    for (index, layer) in lit.layers[..lit.count as usize].iter().enumerate() {
-        let [opacity, shade] = layer_means(layer, lit.m);
-        let shade = shade * shade_from_above(lit, index);
-        let radiance = lit.light * shade + lit.ambient * (AMBIENT[0] + AMBIENT[1] * shade);
-        sum += radiance * (clear * opacity);
-        clear *= 1.0 - opacity;
-    }
-    sum / (1.0 - clear).max(1e-6)
-}
-
-/// Share of sunlight along a direction: see the end of lit.wgsl.
-pub(crate) fn facing(
-    lit: &LitUniforms,
-    clouds: &CloudUniforms,
-    direction: Vec3,
-    opacity: f32,
-) -> f32 {
-    let cosine = direction.dot(lit.light_direction);
-    let falls = mean_fall(lit.light_direction);
-    let sides = SIDES * clouds.low_sun * (0.5 - 0.5 * cosine) * (AMBIENT[0] + AMBIENT[1]);
-    (falls + through(lit, cosine)) * shared::facing(clouds, cosine, opacity) + sides
+/// Amounts of cloud, each of which is as likely as any other.
+pub(super) fn amounts() -> impl Iterator<Item = f32> {
+    (0..AMOUNTS).map(|i| (i as f32 + 0.5) / AMOUNTS as f32)
 }
 
 #[cfg(test)]

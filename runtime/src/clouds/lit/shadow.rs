@@ -8,11 +8,12 @@
 //! # Changes versus the paper
 //! - The viewer's dome goes with the viewer. So the shadow of a cloud lies where a viewer has that cloud before the sun, and
 //!   on a plane ground, height 0, all shadows of a layer are as far from their clouds.
+//! - Sides of clouds shade as a viewer sees them before the sun.
 //! - Clouds fade into the haze of the horizon, and their shadows with them: light from below the horizon meets no cloud.
 //! - The sun is a point, its penumbra left out: it would be a texel or two wide.
 //!
 //! # Practice
-//! A texture of 256x256 R8 texels, drawn off screen with two reads a layer and texel. Rows go from north to south, columns from west to
+//! A texture of 256x256 R8 texels, drawn off screen with six reads a texel for three layers. Rows go from north to south, columns from west to
 //! east; the middle of texel (i, j) is at `centre + extent ((i + 0.5) / 256 - 0.5)`, and so on for j. The centre is the viewer's place,
 //! moved to whole texels: as the viewer walks, shadows stay where they are. A level of detail is chosen for the texels.
 //!

@@ -1,6 +1,7 @@
 //! Layers of the lit method: what covers, what moves, what light does.
 
 use glam::DVec3;
+use welkin_pack::LayerKind;
 
 use super::*;
 use crate::params::LitParams;
@@ -63,7 +64,11 @@ fn the_cut_leaves_the_cover_opaque_enough() {
         assert!((alpha - COVERED).abs() < 1e-4, "{alpha}");
     }
     assert_eq!(cut(0.0, 9.0, 1.0), 1.0);
-    assert!(cut(1.0, 9.0, 1.0) < -0.3, "an overcast has no holes");
+    assert!(
+        cut(1.0, 9.0, 1.0) - shut(1.0) < -0.3,
+        "an overcast has no holes"
+    );
+    assert_eq!(shut(0.875), 0.0, "seven oktas are seven");
 }
 
 #[test]
