@@ -10,7 +10,7 @@ use welkin_runtime::internals::sprites::outline::Outline;
 use welkin_runtime::internals::sprites::pipelines::SpriteBlock;
 use welkin_runtime::internals::sprites::station::SpriteView;
 use welkin_runtime::internals::sprites::{
-    BULGE, FRONT, LEAST_SKY, PHASE, RIM_OPAQUE, SIDES, SpriteUniforms, formation,
+    BULGE, FRONT, LEAST_SKY, PHASE, RIM_OPAQUE, SIDES, SOFT, SpriteUniforms, formation,
 };
 use welkin_runtime::params::Shading;
 
@@ -173,7 +173,7 @@ pub fn placed(
         );
         (Vec2::new(x, y), corner)
     });
-    let texels_a_pixel = inputs.view.cell_texels * inputs.view.pixel_rad * distance
+    let texels_a_pixel = SOFT * inputs.view.cell_texels * inputs.view.pixel_rad * distance
         / (2.0 * libm::sqrtf(half_width * half_height));
     let fine = libm::log2f(texels_a_pixel.max(1e-6)).max(0.0);
     let cell = instance.names[0];

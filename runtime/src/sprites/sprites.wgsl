@@ -251,7 +251,7 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     );
     let cell = vec2f(f32(instance.cell & 3u), f32(instance.cell >> 2u));
     let uv = (cell + vec2f(0.5, -0.5) * corner + 0.5) * 0.25;
-    let texels_a_pixel = sprite_view.cell_texels * sprite_view.pixel_rad * distance / (2.0 * sqrt(instance.half_size.x * instance.half_size.y));
+    let texels_a_pixel = SPRITE_SOFT * sprite_view.cell_texels * sprite_view.pixel_rad * distance / (2.0 * sqrt(instance.half_size.x * instance.half_size.y));
     // Far away a whole level: between two, every texel of every sprite would cost two reads.
     let fine = max(log2(max(texels_a_pixel, 1e-6)), 0.0);
     let level = select(fine, round(fine), sprite_block.vertices_log2 == 2u);
