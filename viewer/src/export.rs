@@ -19,6 +19,7 @@ pub mod equirect;
 pub mod faces;
 pub mod harmonics;
 pub mod light;
+pub mod looped;
 pub mod panorama;
 pub mod prefilter;
 pub mod sequence;

@@ -64,6 +64,20 @@ impl Target {
     }
 }
 
+/// Light of a byte of [`Pixels::Srgb8`], 0..=1: IEC 61966-2-1.
+pub(crate) fn linear(byte: u8) -> f32 {
+    let encoded = f32::from(byte) / 255.0;
+    match encoded <= 0.04045 {
+        true => encoded / 12.92,
+        false => ((encoded + 0.055) / 1.055).powf(2.4),
+    }
+}
+
+/// Luminance of linear light: ITU-R BT.709-6, item 3.2.
+pub(crate) fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
 /// Bytes from one row to the next in a buffer that a texture with rows of `row` bytes is copied to.
 pub(crate) const fn padded(row: u32) -> u32 {
     row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)

@@ -5,6 +5,7 @@ pub mod export;
 pub mod frame;
 pub mod gpu;
 pub mod headless;
+pub mod motion;
 pub mod pass_times;
 pub mod reference;
 pub mod save;

@@ -1,7 +1,8 @@
-//! `welkin-view look`: the structure of each method's clouds in numbers, beside those of photographs, and a page of its skies.
+//! `welkin-view look`: the structure of each method's clouds in numbers, beside those of photographs, how evenly they move, and a page of its skies.
 //!
 //! The numbers are necessary and not enough: whoever changes clouds looks at the page too, beside a photograph.
 
+mod motion;
 mod page;
 mod scene;
 
@@ -21,7 +22,8 @@ use welkin_viewer::structure::{fine_over_coarse, repetition};
 
 use crate::cli::LookArgs;
 use crate::told::{print, tell_leftovers};
-use page::Picture;
+use motion::Motion;
+use page::{Picture, Shown};
 use scene::{MEASURED, OKTAS, SHOWN, Scene};
 
 /// Fine over coarse structure that clouds may have: photographs have 0.12 to 0.25.
@@ -35,6 +37,7 @@ struct Found {
     /// Of each hour and cover, fine over coarse structure, if there are clouds enough.
     structure: [[Option<f32>; OKTAS.len()]; MEASURED.len()],
     repetition: f32,
+    motion: Option<Motion>,
 }
 
 impl Found {
@@ -60,6 +63,7 @@ impl Found {
                 self.repetition
             ));
         }
+        problems.extend(self.motion.and_then(|motion| motion.problem(self.method)));
         problems
     }
 
@@ -76,7 +80,11 @@ impl Found {
             )
         });
         let zenith = format!("{:8} zenith  {:5.2}\n", self.method.name(), self.repetition);
-        rows.chain([zenith]).collect()
+        let motion = self.motion.map(|motion| {
+            let columns = motion.columns();
+            format!("{:8} motion  {columns}\n", self.method.name())
+        });
+        rows.chain([zenith]).chain(motion).collect()
     }
 }
 
@@ -90,7 +98,7 @@ pub fn run(args: &LookArgs) -> Result<()> {
     interrupt::listen()?;
     let [a, b, c] = OKTAS;
     print(&format!("method   hour    {a} oktas  {b}     {c}\n"))?;
-    let (mut problems, mut pictures, mut files) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut problems, mut shown, mut files) = (Vec::new(), Vec::new(), Vec::new());
     for method in args.methods() {
         let mut stage = Stage::new(&gpu, &pack, Target::Srgb8)?;
         let mut draw = |view: &View| -> Result<Frame> {
@@ -102,6 +110,7 @@ pub fn run(args: &LookArgs) -> Result<()> {
             method,
             structure: [[None; OKTAS.len()]; MEASURED.len()],
             repetition: repetition(&draw(&scene::zenith(method))?),
+            motion: None,
         };
         for (scene, row) in MEASURED.iter().zip(&mut found.structure) {
             for (wanted, found) in OKTAS.iter().zip(row) {
@@ -110,22 +119,30 @@ pub fn run(args: &LookArgs) -> Result<()> {
                 *found = fine_over_coarse(&draw(&view)?);
             }
         }
+        if let Some(seconds) = args.motion {
+            found.motion = Some(Motion::of(&gpu, &pack, method, seconds)?);
+        }
         print(&found.table())?;
         problems.extend(found.problems());
+        let mut pictures = Vec::new();
         for scene in args.output.iter().flat_map(|_| &SHOWN) {
             let frame = draw(&scene.view(method))?;
             let file = picture_name(method, scene);
             files.push((file.clone(), encode(&file, Format::Png, &frame)?));
             pictures.push(Picture {
                 file,
-                method,
                 scene: scene.name,
                 structure: fine_over_coarse(&frame),
             });
         }
+        shown.push(Shown {
+            method,
+            motion: found.motion.map(|motion| motion.sentence()),
+            pictures,
+        });
     }
     if let Some(folder) = &args.output {
-        files.push((PAGE.into(), page::html(&pictures, &problems).into_bytes()));
+        files.push((PAGE.into(), page::html(&shown, &problems).into_bytes()));
         write(folder, &files)?;
     }
     for problem in &problems {

@@ -6,7 +6,7 @@
 //! haze and sunset, all round and overhead) have 0.12 to 0.25 times as much in the two finest as in the two coarsest, whatever the exposure; white
 //! noise has some thirty times as much.
 
-use crate::frame::{Frame, Pixels};
+use crate::frame::{Frame, Pixels, linear, luminance};
 
 /// Size of the pictures that are measured.
 pub const SIZE: [u32; 2] = [1280, 720];
@@ -95,13 +95,13 @@ impl Plane {
 /// # Panics
 /// With another kind of pixels.
 pub fn fine_over_coarse(frame: &Frame) -> Option<f32> {
-    let (luminance, saturation) = planes(frame);
+    let (light, saturation) = planes(frame);
     let inside = inside(&saturation, frame);
     let count = inside.iter().filter(|inside| **inside).count();
     if (count as f32) < LEAST_SHARE * inside.len() as f32 {
         return None;
     }
-    let logarithm = luminance.map(|l| (l + DARK).ln());
+    let logarithm = light.map(|l| (l + DARK).ln());
     let blurred = SIGMAS.map(|sigma| logarithm.blurred(sigma));
     let bands = blurred.windows(2).map(|pair| {
         let pairs = pair[0].values.iter().zip(&pair[1].values).zip(&inside);
@@ -128,19 +128,9 @@ fn planes(frame: &Frame) -> (Plane, Plane) {
             .collect(),
     };
     (
-        // ITU-R BT.709-6, item 3.2.
-        plane(&|[r, g, b]| 0.2126 * r + 0.7152 * g + 0.0722 * b),
+        plane(&luminance),
         plane(&|[r, g, b]| 1.0 - r.min(g).min(b) / (r.max(g).max(b) + 1e-6)),
     )
-}
-
-/// IEC 61966-2-1.
-fn linear(byte: u8) -> f32 {
-    let encoded = f32::from(byte) / 255.0;
-    match encoded <= 0.04045 {
-        true => encoded / 12.92,
-        false => ((encoded + 0.055) / 1.055).powf(2.4),
-    }
 }
 
 /// Which pixels are inside clouds, and high enough.
@@ -181,33 +171,61 @@ const LEAST_OVERLAP: f32 = 0.3;
 /// # Panics
 /// With another kind of pixels, and where the picture is no square.
 pub fn repetition(frame: &Frame) -> f32 {
-    assert_eq!(frame.width, frame.height, "a square is looked at");
-    let (luminance, _) = planes(frame);
-    let small = shrunk(&luminance);
-    let uneven = small.blurred(UNEVEN * SHAPE_SIDE as f32);
-    let pairs = small.values.iter().zip(&uneven.values);
-    let shapes: Vec<f32> = pairs.map(|(value, uneven)| value - uneven).collect();
+    let shapes = shapes_of(frame);
     let side = SHAPE_SIDE as isize;
     let mut most = 0.0_f32;
     for (dx, dy) in (0..side).flat_map(|dy| (1 - side..side).map(move |dx| (dx, dy))) {
-        let overlap = ((side - dx.abs()) * (side - dy)) as f32;
         let apart = ((dx * dx + dy * dy) as f32).sqrt();
-        if apart < APART * side as f32 || overlap < LEAST_OVERLAP * (side * side) as f32 {
-            continue;
+        if apart >= APART * side as f32 {
+            most = most.max(correlation(&shapes, &shapes, [dx, dy]).unwrap_or(0.0));
         }
-        let (mut product, mut here, mut there) = (0.0_f32, 0.0_f32, 0.0_f32);
-        for y in 0..side - dy {
-            for x in (-dx).max(0)..side.min(side - dx) {
-                let a = shapes[(y * side + x) as usize];
-                let b = shapes[((y + dy) * side + x + dx) as usize];
-                product += a * b;
-                here += a * a;
-                there += b * b;
-            }
-        }
-        most = most.max(product / (here * there).sqrt().max(f32::MIN_POSITIVE));
     }
     most
+}
+
+/// The largest correlation of two square display-referred pictures over all ways of moving one: 1 where the same shapes have only moved, about 0.2
+/// where they are others.
+///
+/// # Panics
+/// With another kind of pixels, and where a picture is no square.
+pub fn remaining(first: &Frame, later: &Frame) -> f32 {
+    let [first, later] = [first, later].map(shapes_of);
+    let moves = 1 - SHAPE_SIDE as isize..SHAPE_SIDE as isize;
+    let moves = moves
+        .clone()
+        .flat_map(|dy| moves.clone().map(move |dx| [dx, dy]));
+    let found = moves.filter_map(|by| correlation(&first, &later, by));
+    found.fold(0.0, f32::max)
+}
+
+/// Luminance of a square picture, [`SHAPE_SIDE`] a side, without what is not a shape.
+fn shapes_of(frame: &Frame) -> Vec<f32> {
+    assert_eq!(frame.width, frame.height, "a square is looked at");
+    let (light, _) = planes(frame);
+    let small = shrunk(&light);
+    let uneven = small.blurred(UNEVEN * SHAPE_SIDE as f32);
+    let pairs = small.values.iter().zip(&uneven.values);
+    pairs.map(|(value, uneven)| value - uneven).collect()
+}
+
+/// Correlation of one square with another, moved so far; none if too little of them meets.
+fn correlation(one: &[f32], other: &[f32], [dx, dy]: [isize; 2]) -> Option<f32> {
+    let side = SHAPE_SIDE as isize;
+    let overlap = ((side - dx.abs()) * (side - dy.abs())) as f32;
+    if overlap < LEAST_OVERLAP * (side * side) as f32 {
+        return None;
+    }
+    let (mut product, mut here, mut there) = (0.0_f32, 0.0_f32, 0.0_f32);
+    for y in (-dy).max(0)..side.min(side - dy) {
+        for x in (-dx).max(0)..side.min(side - dx) {
+            let a = one[(y * side + x) as usize];
+            let b = other[((y + dy) * side + x + dx) as usize];
+            product += a * b;
+            here += a * a;
+            there += b * b;
+        }
+    }
+    Some(product / (here * there).sqrt().max(f32::MIN_POSITIVE))
 }
 
 /// A square plane averaged down to [`SHAPE_SIDE`].
@@ -299,5 +317,24 @@ mod tests {
         let (once, twice) = (repetition(&blocks(64)), repetition(&blocks(16)));
         assert!(once < 0.3, "{once}");
         assert!(twice > 0.95, "{twice}");
+    }
+
+    #[test]
+    fn what_has_only_moved_is_told_from_what_has_changed() {
+        // Rings about places that move, and others between them that come and go.
+        let rings = |[along, down]: [f32; 2], turned: f32| {
+            picture(256, 256, move |x, y| {
+                let (x, y) = (x + along, y + down);
+                let wave = (0.11 * x + 2.0 * (0.07 * y).sin()).sin()
+                    * (0.09 * y + turned * (0.05 * x).cos()).cos();
+                [(128.0 + 90.0 * wave).round() as u8; 3]
+            })
+        };
+        let first = rings([0.0, 0.0], 1.0);
+        let moved = remaining(&first, &rings([-32.0, 24.0], 1.0));
+        let changed = remaining(&first, &rings([-32.0, 24.0], 6.0));
+        assert!(moved > 0.97, "{moved}");
+        assert!(changed < 0.8, "{changed}");
+        assert!(remaining(&first, &first) > 0.999);
     }
 }

@@ -7,12 +7,19 @@ use std::path::Path;
 
 use clap::{Args, ValueEnum};
 use welkin_runtime::params::{whole_within, within};
+use welkin_viewer::export::looped::CHANGE_S;
 use welkin_viewer::export::sequence::{FPS, MOST_FRAMES, Sequence, Shard};
 use welkin_viewer::export::{cubemap, equirect};
 use welkin_viewer::save::Format;
 
 /// Frames a second without --fps.
 const USUAL_FPS: f64 = 30.0;
+
+/// Seconds that a loop may take.
+const LOOP_S: [f64; 2] = [1.0, 86_400.0];
+
+/// Name of the group of options that ask for a sequence.
+const SEQUENCE: &str = "sequence";
 
 /// What is drawn other than one frame.
 #[derive(Debug, Args)]
@@ -26,20 +33,22 @@ pub struct ExportArgs {
     /// as nine spherical harmonics. A file of that name is replaced
     #[arg(long, requires = "cubemap")]
     pub prefiltered: bool,
-    #[arg(long, value_name = "N", value_parser = frames, allow_hyphen_values = true, help = frames_help())]
+    #[arg(long, value_name = "N", group = SEQUENCE, value_parser = frames, allow_hyphen_values = true, help = frames_help())]
     pub frames: Option<u32>,
-    #[arg(long, value_name = "F", requires = "frames", value_parser = fps, allow_hyphen_values = true, help = fps_help())]
+    #[arg(long = "loop", value_name = "SECONDS", group = SEQUENCE, value_parser = loop_s, allow_hyphen_values = true, help = loop_help())]
+    pub loop_s: Option<f64>,
+    #[arg(long, value_name = "F", requires = SEQUENCE, value_parser = fps, allow_hyphen_values = true, help = fps_help())]
     pub fps: Option<f64>,
     /// Draw one of several parts of the sequence, such as 2/4: every fourth frame, from the second on. Together the parts are the
     /// whole, byte for byte; several may be drawn into the same folder at the same time
     #[arg(
         long,
         value_name = "PART/PARTS",
-        requires = "frames",
+        requires = SEQUENCE,
         allow_hyphen_values = true
     )]
     pub shard: Option<Shard>,
-    /// Format of the files in a folder [default: png; exr with --equirect or --cubemap; ktx2 with --cubemap and --frames]
+    /// Format of the files in a folder [default: png; exr with --equirect or --cubemap; ktx2 with --cubemap in a sequence]
     #[arg(long, value_enum)]
     pub format: Option<FormatName>,
 }
@@ -114,6 +123,16 @@ fn frames_help() -> String {
     )
 }
 
+fn loop_help() -> String {
+    let [least, most] = LOOP_S;
+    format!(
+        "Draw a sequence that begins again where it ends, of SECONDS, {least} to {most}, to the nearest frame, as --frames does: frame 0 is the sky at --at, and the \
+         last frame goes on into it. Each part of the sky changes over, at its own moment, to what goes before frame 0, in a fifth of the loop or at \
+         most {} seconds",
+        CHANGE_S / 5.0
+    )
+}
+
 fn fps_help() -> String {
     let [least, most] = FPS;
     format!("Frames a second, {least} to {most} [default: {USUAL_FPS}]")
@@ -146,6 +165,11 @@ fn frames(text: &str) -> Result<u32, String> {
     whole_within(text, 1..=MOST_FRAMES)
 }
 
+fn loop_s(text: &str) -> Result<f64, String> {
+    let [least, most] = LOOP_S;
+    within(text, least..=most, " seconds")
+}
+
 fn fps(text: &str) -> Result<f64, String> {
     let [least, most] = FPS;
     within(text, least..=most, " frames a second")
@@ -159,17 +183,36 @@ impl ExportArgs {
 
     /// Whether anything but one frame was asked for.
     pub fn is_used(&self) -> bool {
-        self.is_map() || self.frames.is_some() || self.format.is_some()
+        self.is_map() || self.count().is_some() || self.format.is_some()
     }
 
     /// The sequence, if there is one.
     pub fn sequence(&self, start_s: f64) -> Option<Sequence> {
         Some(Sequence {
-            frames: self.frames?,
-            fps: self.fps.unwrap_or(USUAL_FPS),
+            frames: self.count()?,
+            fps: self.fps(),
             start_s,
+            looped: self.loop_s.is_some(),
             shard: self.shard.unwrap_or(Shard::WHOLE),
         })
+    }
+
+    /// Frames of the sequence, if there is one.
+    fn count(&self) -> Option<u32> {
+        let of_loop = |seconds: f64| (seconds * self.fps()).round() as u32;
+        self.frames.or(self.loop_s.map(of_loop))
+    }
+
+    fn fps(&self) -> f64 {
+        self.fps.unwrap_or(USUAL_FPS)
+    }
+
+    /// The option that asks for a sequence.
+    fn sequence_option(&self) -> &'static str {
+        match self.loop_s {
+            Some(_) => "--loop",
+            None => "--frames",
+        }
     }
 
     /// What one moment becomes.
@@ -177,7 +220,7 @@ impl ExportArgs {
     /// # Errors
     /// That the name of the output, or the format, does not suit it.
     pub fn shot(&self, output: &Path) -> Result<Shot, String> {
-        match (self.frames, self.equirect, self.cubemap) {
+        match (self.count(), self.equirect, self.cubemap) {
             (None, None, None) => self.named(output, "").map(Shot::Frame),
             (None, Some(width), _) => self
                 .named(output, "--equirect")
@@ -191,7 +234,7 @@ impl ExportArgs {
     fn named(&self, output: &Path, option: &str) -> Result<Format, String> {
         if self.format.is_some() {
             return Err(
-                "--format is for the files in a folder, of --frames or of --cubemap; leave it out, the name of the output says the format"
+                "--format is for the files in a folder, of --frames, --loop or --cubemap; leave it out, the name of the output says the format"
                     .to_string(),
             );
         }
@@ -239,17 +282,18 @@ impl ExportArgs {
     fn in_sequence(&self, output: &Path) -> Result<Shot, String> {
         if Format::of(output).is_ok() || is_ktx2(output) {
             return Err(format!(
-                "--frames writes a folder of files, and {} is the name of one; name a folder and choose with --format",
+                "{} writes a folder of files, and {} is the name of one; name a folder and choose with --format",
+                self.sequence_option(),
                 output.display()
             ));
         }
         let ktx2 = self.format == Some(FormatName::Ktx2);
         match (self.equirect, self.cubemap) {
             (_, Some(side)) if ktx2 || self.format.is_none() => Ok(Shot::Ktx2(side)),
-            (_, Some(_)) => Err(
-                "--cubemap with --frames writes a .ktx2 for each frame; leave --format out, or take --equirect"
-                    .to_string(),
-            ),
+            (_, Some(_)) => Err(format!(
+                "--cubemap with {} writes a .ktx2 for each frame; leave --format out, or take --equirect",
+                self.sequence_option()
+            )),
             _ if ktx2 => Err(
                 "--format ktx2 belongs to --cubemap; add it, or take png, exr or hdr".to_string(),
             ),

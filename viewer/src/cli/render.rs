@@ -19,7 +19,7 @@ pub struct RenderArgs {
     /// Folder of the pack
     pub pack: PathBuf,
     /// Picture to write; its name ends in .png, .exr or .hdr. A file of that name is replaced. With --cubemap a .ktx2 or a folder,
-    /// with --frames a folder
+    /// with --frames or --loop a folder
     #[arg(short, long, value_name = "FRAME.png|.exr|.hdr")]
     pub output: PathBuf,
     /// Pixels, width by height

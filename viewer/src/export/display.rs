@@ -4,20 +4,24 @@
 
 use glam::Vec3;
 use half::f16;
+use rayon::prelude::*;
 use welkin_runtime::SkyParams;
 use welkin_runtime::internals::tonemap;
+use welkin_runtime::params::Tonemap;
 
-use crate::frame::{Frame, Pixels};
+use crate::frame::{Frame, Pixels, luminance};
 
 /// A frame of radiance, tonemapped and encoded as sRGB as these parameters say. Other frames stay what they are.
 pub fn displayed(frame: Frame, params: &SkyParams) -> Frame {
     let Pixels::Linear(pixels) = &frame.pixels else {
         return frame;
     };
+    let factor = params.clamped().exposure_factor();
     let places = pixels.iter().enumerate();
     let bytes = places.map(|(index, pixel)| {
         let noise = dither(index as u32 % frame.width, index as u32 / frame.width);
-        let steps = encoded(*pixel, params) * 255.0 + 0.5 + noise;
+        let light = on_display(*pixel, factor, params.tonemap);
+        let steps = tonemap::srgb_encoded(light) * 255.0 + 0.5 + noise;
         let [r, g, b] = steps.to_array().map(|c| c as u8);
         [r, g, b, 255]
     });
@@ -27,10 +31,22 @@ pub fn displayed(frame: Frame, params: &SkyParams) -> Frame {
     }
 }
 
-/// Red, green and blue of the picture, 0..1.
-fn encoded([r, g, b, _]: [f16; 4], params: &SkyParams) -> Vec3 {
-    let radiance = Vec3::from([r, g, b].map(f16::to_f32)) * params.clamped().exposure_factor();
-    tonemap::srgb_encoded(tonemap::displayed(radiance, params.tonemap))
+/// Luminance of the picture that a frame of radiance becomes, encoded as sRGB, 0..=1, without dither. Of other frames nothing.
+pub fn encoded_luminance(frame: &Frame, params: &SkyParams) -> Vec<f32> {
+    let Pixels::Linear(pixels) = &frame.pixels else {
+        return Vec::new();
+    };
+    let factor = params.clamped().exposure_factor();
+    let of = |pixel: &[f16; 4]| {
+        let light = luminance(on_display(*pixel, factor, params.tonemap).to_array());
+        tonemap::srgb_encoded(Vec3::splat(light)).x
+    };
+    pixels.par_iter().map(of).collect()
+}
+
+/// Linear light of the picture, each channel 0..1.
+fn on_display([r, g, b, _]: [f16; 4], factor: f32, curve: Tonemap) -> Vec3 {
+    tonemap::displayed(Vec3::from([r, g, b].map(f16::to_f32)) * factor, curve)
 }
 
 /// Interleaved gradient noise, -0.5..0.5: J. Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014.
@@ -41,8 +57,6 @@ fn dither(x: u32, y: u32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use welkin_runtime::params::Tonemap;
-
     use super::*;
 
     fn shown(radiance: f32, params: &SkyParams) -> Vec<u8> {
@@ -95,6 +109,24 @@ mod tests {
     }
 
     #[test]
+    fn encoded_luminance_is_the_picture_s_grey() {
+        for params in every_curve() {
+            for radiance in [0.0, 0.01, 0.3, 2.0] {
+                let frame = Frame {
+                    width: 1,
+                    height: 1,
+                    pixels: Pixels::Linear(vec![[f16::from_f32(radiance); 4]]),
+                };
+                let found = encoded_luminance(&frame, &params)[0] * 255.0;
+                let bytes = shown(radiance, &params);
+                let mean = bytes.iter().map(|&b| f32::from(b)).sum::<f32>() / bytes.len() as f32;
+                // Bytes end at 255, where dither has no mean any more.
+                assert!((found - mean).abs() < 0.5, "{found} {mean}");
+            }
+        }
+    }
+
+    #[test]
     fn a_stop_is_twice_the_radiance() {
         for params in every_curve() {
             let brighter = SkyParams {
@@ -112,7 +144,12 @@ mod tests {
             for radiance in [0.03, 0.21, 0.5] {
                 let bytes = shown(radiance, &params);
                 let mean = bytes.iter().map(|&b| f32::from(b)).sum::<f32>() / bytes.len() as f32;
-                let wanted = encoded([f16::from_f32(radiance); 4], &params).x * 255.0;
+                let light = on_display(
+                    [f16::from_f32(radiance); 4],
+                    params.exposure_factor(),
+                    params.tonemap,
+                );
+                let wanted = tonemap::srgb_encoded(light).x * 255.0;
                 // Noise of 64x64 different values over one step: an even distribution is off by less than a 64th.
                 assert!((mean - wanted).abs() < 1.0 / 64.0, "{mean} {wanted}");
             }

@@ -1,7 +1,8 @@
 //! Sequences of frames: which moments they are, what they are called, and how they are cut into parts.
 //!
 //! Frame k is the sky at `start + k / fps` seconds, whoever draws it and whatever was drawn before. So the parts of a sequence may be drawn by
-//! several programs, on several machines, into one folder, and are together what one program draws.
+//! several programs, on several machines, into one folder, and are together what one program draws. That holds for a loop too ([`looped`](super::looped)), whose frames are
+//! of two moments.
 
 use std::fs;
 use std::io;
@@ -10,6 +11,8 @@ use std::str::FromStr;
 
 use welkin_pack::WriteError;
 use welkin_pack::whole::others_in;
+
+use super::looped::{CHANGE_S, Change};
 
 /// Frames that a sequence may have: as many as six digits count.
 pub const MOST_FRAMES: u32 = 1_000_000;
@@ -57,6 +60,8 @@ pub struct Sequence {
     pub fps: f64,
     /// The moment of frame 0, in seconds.
     pub start_s: f64,
+    /// Whether the frame after the last one is frame 0.
+    pub looped: bool,
     /// Which part.
     pub shard: Shard,
 }
@@ -70,6 +75,20 @@ impl Sequence {
     /// The moment of a frame, in seconds.
     pub fn seconds(&self, number: u32) -> f64 {
         self.start_s + f64::from(number) / self.fps
+    }
+
+    /// What a frame of a loop shows of the sky that goes before frame 0, if it may show any.
+    pub fn change(&self, number: u32) -> Option<Change> {
+        if !self.looped {
+            return None;
+        }
+        let left = f64::from(self.frames) - f64::from(number);
+        let frames = f64::from(self.frames).min(CHANGE_S * self.fps);
+        Some(Change {
+            earlier_s: self.start_s - left / self.fps,
+            progress: (1.0 - left / frames) as f32,
+        })
+        .filter(|change| change.progress > 0.0)
     }
 }
 
@@ -129,6 +148,7 @@ mod tests {
             frames,
             fps: 24.0,
             start_s: 10.0,
+            looped: false,
             shard: shard.parse().unwrap(),
         }
     }
@@ -157,6 +177,30 @@ mod tests {
         for number in sequence(1_000_000, "5/7").numbers().take(5) {
             assert_eq!(sequence(9, "1/2").seconds(number), whole.seconds(number));
         }
+    }
+
+    #[test]
+    fn the_frame_after_the_last_one_of_a_loop_is_frame_0() {
+        for (frames, fps) in [(2, 1.0), (240, 24.0), (1439, 23.976), (30_000, 30.0)] {
+            let looped = Sequence {
+                fps,
+                looped: true,
+                ..sequence(frames, "1/1")
+            };
+            assert_eq!(looped.change(0), None);
+            let begun = Change {
+                earlier_s: looped.seconds(0),
+                progress: 1.0,
+            };
+            assert_eq!(looped.change(frames), Some(begun));
+            let changes = (1..frames).filter_map(|number| looped.change(number));
+            let progress: Vec<f32> = changes.map(|change| change.progress).collect();
+            // All of a short loop, the last minute of a long one.
+            let expected = f64::from(frames).min(CHANGE_S * fps).ceil() as usize - 1;
+            assert_eq!(progress.len(), expected);
+            assert!(progress.is_sorted() && progress.iter().all(|p| (0.0..1.0).contains(p)));
+        }
+        assert_eq!(sequence(240, "1/1").change(239), None);
     }
 
     #[test]

@@ -82,6 +82,17 @@ impl Scene {
     }
 }
 
+/// A small view of noon at the usual cover, for many frames.
+pub fn moving(method: Method) -> View {
+    let mut view = NOON.view(method);
+    view.params.cover = SkyParams::default().cover;
+    view.camera = Camera {
+        viewport_px: [160, 90],
+        ..view.camera
+    };
+    view
+}
+
 /// A wide view straight up at noon, without the sun.
 pub fn zenith(method: Method) -> View {
     let mut view = NOON.view(method);

@@ -10,6 +10,7 @@ use welkin_viewer::export::Environment;
 use welkin_viewer::export::cube::FACES;
 use welkin_viewer::export::cubemap::Cubemap;
 use welkin_viewer::export::display::displayed;
+use welkin_viewer::export::looped::{self, Change};
 use welkin_viewer::frame::Frame;
 use welkin_viewer::gpu::{Gpu, GpuError};
 use welkin_viewer::headless::{Stage, View};
@@ -55,26 +56,44 @@ impl<'a> Artist<'a> {
         })
     }
 
-    /// Draws a moment, whatever was drawn before. `file` names it in errors.
-    pub fn draw(&mut self, view: &View, file: &str) -> Result<Encoded> {
+    /// Draws a moment, whatever was drawn before, and in a loop what it shows of another one. `file` names it in errors.
+    pub fn draw(&mut self, view: &View, change: Option<&Change>, file: &str) -> Result<Encoded> {
         let encoded = match self {
             Artist::Frame(stage, format) => {
-                stage.reset_history();
-                encode(file, *format, &stage.draw(view)?)?
+                let directions = || looped::of_camera(&view.camera);
+                let draw = |view: &View| {
+                    stage.reset_history();
+                    stage.draw(view)
+                };
+                let frame = looped::draw(view, change, directions, draw, looped::mix_frames)?;
+                encode(file, *format, &frame)?
             }
             Artist::Equirect(sky, width, azimuth_rad, format) => {
-                let map = sky.equirect(view, *width, *azimuth_rad)?;
+                let directions = || looped::of_equirect(*width, *azimuth_rad);
+                let draw = |view: &View| sky.equirect(view, *width, *azimuth_rad);
+                let map = looped::draw(view, change, directions, draw, looped::mix_frames)?;
                 encode(file, *format, &shown_as(*format, map, &sky.exposed(view)))?
             }
-            Artist::Ktx2(sky, side) => sky.cubemap(view, *side)?.ktx2(file)?,
+            Artist::Ktx2(sky, side) => cubemap(sky, *side, view, change)?.ktx2(file)?,
             Artist::Faces(sky, side, format) => {
-                let map = sky.cubemap(view, *side)?;
+                let map = cubemap(sky, *side, view, change)?;
                 let params = sky.exposed(view);
                 return faces(&map, *format, file, &params).map(Encoded::Folder);
             }
         };
         Ok(Encoded::File(encoded))
     }
+}
+
+fn cubemap(
+    sky: &mut Environment<'_>,
+    side: u32,
+    view: &View,
+    change: Option<&Change>,
+) -> Result<Cubemap, GpuError> {
+    let directions = || looped::of_cubemap(side);
+    let draw = |view: &View| sky.cubemap(view, side);
+    looped::draw(view, change, directions, draw, looped::mix_cubemaps)
 }
 
 /// Names and bytes of the pictures of the faces.
@@ -100,7 +119,7 @@ pub fn draw(mut artist: Artist<'_>, view: &View, output: &Path) -> Result<()> {
         // Before anything slow begins.
         verify_folder(output, OURS)?;
     }
-    match artist.draw(view, &output.display().to_string())? {
+    match artist.draw(view, None, &output.display().to_string())? {
         Encoded::File(bytes) => write_file(output, &bytes, &|| false)?,
         Encoded::Folder(files) => {
             let folder = Folder::begin(output, OURS)?;

@@ -39,7 +39,9 @@ pub fn draw(
             seconds: sequence.seconds(number),
             ..view.clone()
         };
-        if let Encoded::File(bytes) = artist.draw(&moment, &file.display().to_string())? {
+        let change = sequence.change(number);
+        let drawn = artist.draw(&moment, change.as_ref(), &file.display().to_string())?;
+        if let Encoded::File(bytes) = drawn {
             write_file(&file, &bytes, &|| false)?;
         }
         bar.inc(1);

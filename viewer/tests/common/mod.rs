@@ -3,6 +3,8 @@
 // Each test program uses its own share of these.
 #![allow(dead_code, clippy::unwrap_used)]
 
+use std::collections::BTreeMap;
+use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -89,4 +91,17 @@ pub fn render_of(pack: &Path, file: &Path, args: &[&str]) -> Vec<u8> {
     assert!(output.status.success(), "{args:?}: {stderr}");
     assert!(output.stdout.is_empty());
     std::fs::read(file).unwrap()
+}
+
+/// Names and bytes of the files in a folder.
+pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    entries
+        .map(|path| {
+            let name = path.file_name().unwrap().to_str().unwrap().to_string();
+            (name, fs::read(path).unwrap())
+        })
+        .collect()
 }

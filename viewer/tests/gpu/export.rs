@@ -3,7 +3,6 @@
 // The lint's exception for tests does not reach their helpers.
 #![allow(clippy::unwrap_used)]
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -15,7 +14,7 @@ use welkin_runtime::SkyParams;
 use welkin_runtime::internals::tonemap;
 use welkin_runtime::params::Tonemap;
 
-use crate::common::{done, failed, render_to, run};
+use crate::common::{done, failed, files, render_to, run};
 
 /// Width, height and RGB of an EXR, row by row: the reader hands out its blocks in any order.
 fn exr(file: &Path) -> (usize, usize, Vec<[f16; 3]>) {
@@ -30,19 +29,6 @@ fn exr(file: &Path) -> (usize, usize, Vec<[f16; 3]>) {
     let size = image.layer_data.size;
     let (_, pixels) = image.layer_data.channel_data.pixels;
     (size.width(), size.height(), pixels)
-}
-
-/// Names and bytes of the files in a folder.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let entries = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
-    entries
-        .map(|path| {
-            let name = path.file_name().unwrap().to_str().unwrap().to_string();
-            (name, fs::read(path).unwrap())
-        })
-        .collect()
 }
 
 #[test]

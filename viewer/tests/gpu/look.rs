@@ -5,12 +5,12 @@
 
 use crate::common::{pack, run, view};
 
-/// Each hour and cover has its number, or none without clouds, and what is beyond the bounds is told and makes the program fail.
+/// Each hour and cover has its number, so has motion, or none without clouds, and what is beyond the bounds is told and makes the program fail.
 #[test]
-fn structure_is_told_and_a_page_shows_it() {
+fn structure_and_motion_are_told_and_a_page_shows_them() {
     let place = tempfile::tempdir().unwrap();
     let folder = place.path().join("page");
-    let mut command = view(&["look", "--method", "octaves", "-o"]);
+    let mut command = view(&["look", "--method", "octaves", "--motion=2", "-o"]);
     command.arg(&folder).arg(pack());
     let output = run(command);
     let text = String::from_utf8(output.stdout).unwrap();
@@ -20,14 +20,25 @@ fn structure_is_told_and_a_page_shows_it() {
         .collect();
     let (told, rows): (Vec<_>, Vec<_>) = rows.iter().skip(1).partition(|row| row[0] == "beyond");
     let hours: Vec<&str> = rows.iter().map(|row| row[1]).collect();
-    assert_eq!(hours, ["noon", "sunset", "storm", "zenith"], "{text}");
+    assert_eq!(
+        hours,
+        ["noon", "sunset", "storm", "zenith", "motion"],
+        "{text}"
+    );
     let mut beyond = 0;
     for row in &rows {
         let within = match row[1] {
             "zenith" => 0.0..0.305,
+            // The second number has no bound.
+            "motion" => 0.0..2.005,
             _ => 0.095..0.285,
         };
-        assert_eq!(row.len(), if row[1] == "zenith" { 3 } else { 5 }, "{text}");
+        let columns = match row[1] {
+            "zenith" => 3,
+            "motion" => 4,
+            _ => 5,
+        };
+        assert_eq!(row.len(), columns, "{text}");
         for number in row[2..].iter().filter(|number| **number != "-") {
             let number: f32 = number.parse().unwrap();
             assert!((0.01..5.0).contains(&number), "{text}");
@@ -42,6 +53,7 @@ fn structure_is_told_and_a_page_shows_it() {
         "{text}"
     );
     let page = std::fs::read_to_string(folder.join("index.html")).unwrap();
+    assert!(page.contains("In 2 seconds the largest change"), "{page}");
     for scene in [
         "noon", "sunset", "away", "storm", "dawn", "night", "zenith", "horizon",
     ] {

@@ -7,5 +7,6 @@ mod environment;
 mod export;
 mod light;
 mod look;
+mod loops;
 mod methods;
 mod program;

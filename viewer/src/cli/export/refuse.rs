@@ -1,6 +1,7 @@
 //! Which options go with environment maps and sequences, and which do not.
 
 use clap::ArgMatches;
+use welkin_viewer::export::sequence::MOST_FRAMES;
 
 use super::ExportArgs;
 use crate::cli::given::is_given;
@@ -14,27 +15,48 @@ impl ExportArgs {
         if self.is_map() {
             self.refuse_on_maps(given, rain, flare)?;
         }
-        let Some(frames) = self.frames else {
+        let Some(frames) = self.count() else {
             return Ok(());
         };
+        let sequence = self.sequence_option();
         if is_given(given, "shadow") {
-            return Err(
-                "--shadow names one picture, and --frames draws many; leave it out, or draw frames one by one with --at"
-                    .to_string(),
-            );
+            return Err(format!(
+                "--shadow names one picture, and {sequence} draws many; leave it out, or draw frames one by one with --at"
+            ));
         }
         if self.prefiltered {
-            return Err(
-                "--prefiltered writes two files, and --frames draws many; leave it out, or draw frames one by one with --at"
-                    .to_string(),
-            );
+            return Err(format!(
+                "--prefiltered writes two files, and {sequence} draws many; leave it out, or draw frames one by one with --at"
+            ));
+        }
+        if let Some(seconds) = self.loop_s {
+            self.refuse_in_loop(given, seconds, frames)?;
         }
         match self.shard {
             Some(shard) if shard.count > frames => Err(format!(
-                "--shard {}/{} has more parts than --frames {frames} has frames; choose at most {frames} parts",
+                "--shard {}/{} has more parts than {sequence} has frames ({frames}); choose at most {frames} parts",
                 shard.index, shard.count
             )),
             _ => Ok(()),
+        }
+    }
+
+    fn refuse_in_loop(&self, given: &ArgMatches, seconds: f64, frames: u32) -> Result<(), String> {
+        if is_given(given, "lightning") {
+            return Err(
+                "--lightning is one flash at one moment, and --loop shows two moments at once, before and after it; leave it out, or take --frames"
+                    .to_string(),
+            );
+        }
+        let fps = self.fps();
+        match frames {
+            0 | 1 => Err(format!(
+                "--loop {seconds} at {fps} frames a second has less than 2 frames; choose a longer loop, or a larger --fps"
+            )),
+            2..=MOST_FRAMES => Ok(()),
+            _ => Err(format!(
+                "--loop {seconds} at {fps} frames a second has more than {MOST_FRAMES} frames; choose a shorter loop, or a smaller --fps"
+            )),
         }
     }
 

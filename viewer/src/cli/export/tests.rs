@@ -237,6 +237,7 @@ fn a_sequence_and_its_parts() {
         frames: 48,
         fps: USUAL_FPS,
         start_s: 10.0,
+        looped: false,
         shard: Shard::WHOLE,
     };
     assert_eq!(of(&[]), defaults);
@@ -256,4 +257,56 @@ fn a_sequence_and_its_parts() {
     let shadow = ["--frames", "3", "--method", "lit", "--shadow", "s.png"];
     let error = read("sky", &shadow).unwrap_err();
     assert!(error.contains("--shadow names one picture"), "{error}");
+}
+
+#[test]
+fn a_loop_is_a_sequence_of_whole_frames() {
+    let of = |args: &[&str]| {
+        let render = read("sky", args).unwrap();
+        assert_eq!(render.shot(), Ok(Shot::Frame(Format::Png)));
+        render.export.sequence(0.0).unwrap()
+    };
+    let minute = Sequence {
+        frames: 1800,
+        fps: 30.0,
+        start_s: 0.0,
+        looped: true,
+        shard: Shard::WHOLE,
+    };
+    assert_eq!(of(&["--loop", "60"]), minute);
+    let film = of(&["--loop", "10", "--fps", "23.976", "--shard", "2/4"]);
+    assert_eq!((film.frames, film.shard.count, film.looped), (240, 4, true));
+    assert!(shot("sky", &["--loop", "9", "--cubemap", "64"]).is_ok());
+    assert!(shot("sky", &["--loop", "9", "--rain", "1"]).is_ok());
+}
+
+#[test]
+fn what_cannot_begin_again_is_refused_with_what_can() {
+    for (args, told) in [
+        (&["--loop", "0.5"][..], "from 1 to 86400 seconds"),
+        (&["--loop", "9", "--frames", "9"], "cannot be used with"),
+        (
+            &["--loop", "9", "--lightning", "1,2"],
+            "leave it out, or take --frames",
+        ),
+        (&["--loop", "1", "--fps", "1"], "choose a longer loop"),
+        (&["--loop", "80000"], "choose a shorter loop"),
+        (&["--loop", "1", "--shard", "1/31"], "at most 30 parts"),
+        (
+            &["--loop", "1", "--method", "lit", "--shadow", "s.png"],
+            "and --loop draws many",
+        ),
+        (
+            &["--loop", "1", "--cubemap", "64", "--prefiltered"],
+            "and --loop draws many",
+        ),
+    ] {
+        let error = read("sky", args).unwrap_err();
+        assert!(
+            error.contains("--loop") && error.contains(told),
+            "{args:?}: {error}"
+        );
+    }
+    let error = read("sky.png", &["--loop", "1"]).unwrap_err();
+    assert!(error.contains("--loop writes a folder"), "{error}");
 }
