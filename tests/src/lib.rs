@@ -32,7 +32,6 @@ pub mod packed_paper;
 pub mod perez;
 pub mod rain;
 pub mod rays;
-pub mod reference;
 pub mod renderer;
 pub mod ring;
 pub mod shadow;

@@ -10,7 +10,7 @@ use welkin_runtime::internals::sprites::outline::Outline;
 use welkin_runtime::internals::sprites::pipelines::SpriteBlock;
 use welkin_runtime::internals::sprites::station::SpriteView;
 use welkin_runtime::internals::sprites::{
-    BULGE, FRONT, LEAST_SKY, PHASE, RIM_OPAQUE, SIDES, SOFT, SpriteUniforms, formation,
+    BULGE, FRONT, LEAST_SKY, PHASE, RIM_OPAQUE, SIDES, SpriteUniforms, formation,
 };
 use welkin_runtime::params::Shading;
 
@@ -161,7 +161,16 @@ pub fn placed(
         2 => around(outline).to_vec(),
         _ => outline.to_vec(),
     };
-    let corners = outline.iter().map(|&[x, y]| {
+    let texels_a_pixel = inputs.view.cell_texels * inputs.view.pixel_rad * distance
+        / (2.0 * libm::sqrtf(half_width * half_height));
+    let fine = libm::log2f(texels_a_pixel.max(1e-6)).max(0.0);
+    let level = match block.vertices_log2 {
+        2 => libm::roundf(fine),
+        _ => fine,
+    };
+    let spread = 1.0 + 2.0 * libm::exp2f(level) / inputs.view.cell_texels;
+    let corners = outline.iter().map(|corner| {
+        let [x, y] = corner.map(|side| (side * spread).clamp(-1.0, 1.0));
         let offset = axes[0] * x + axes[1] * y;
         let share = (0.5 + 0.5 * offset.y / half_height).clamp(0.0, 1.0);
         let shade = match inputs.shading {
@@ -173,20 +182,13 @@ pub fn placed(
         );
         (Vec2::new(x, y), corner)
     });
-    let texels_a_pixel = SOFT * inputs.view.cell_texels * inputs.view.pixel_rad * distance
-        / (2.0 * libm::sqrtf(half_width * half_height));
-    let fine = libm::log2f(texels_a_pixel.max(1e-6)).max(0.0);
     let cell = instance.names[0];
     Some(Placed {
         middle,
         axes,
         corners: corners.collect(),
         cell: Vec2::new(f32::from(cell % 4), f32::from(cell / 4)),
-        level: if block.vertices_log2 == 2 {
-            libm::roundf(fine)
-        } else {
-            fine
-        },
+        level,
     })
 }
 

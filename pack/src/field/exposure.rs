@@ -31,9 +31,10 @@ pub struct Exposure {
 /// Depth through the middle of a sprite, in halvings.
 const THICKNESS: [f32; 3] = [0.4, 0.5, 2.6];
 
-/// Half axes of the ellipsoid as shares of the sprite's width and height: a picture keeps clear of the sides of its cell.
-const WIDE: f32 = 0.55;
-const HIGH: f32 = 0.55;
+/// Half axes of the ellipsoid as shares of the sprite's width and height: more than a picture shows, since light is scattered to and fro between
+/// neighbours, which have about as much of it.
+const WIDE: f32 = 0.8;
+const HIGH: f32 = 0.8;
 
 /// Side of a cell of the grid, in metres, in fields of up to three sections; larger fields have larger cells.
 const CELL_M: f32 = 80.0;
@@ -298,12 +299,9 @@ mod tests {
         let [own] = exposed(&[&[sprite([2000.0, 1000.0, 2000.0], 1000.0)]])[0][..] else {
             panic!("one sprite");
         };
-        // A ball's density falls off with the square of the radius, 15/8 of the mean of its disc through the middle; half of it is above.
-        let mean = 2.0 / 3.0 * THICKNESS[2] / (std::f32::consts::PI * 550.0 * 550.0)
-            * std::f32::consts::PI
-            * (WIDE * 1000.0)
-            * (WIDE * 1000.0);
-        let expected = 0.5 * mean * 15.0 / 8.0 * 4.0 / 3.0;
+        // 2/3 of the thickness is the mean over its disc; through the middle of the ball 5/4 of its mean, as density falls off with the square of the
+        // radius and chords are shorter outwards. Half of it is above.
+        let expected = 0.5 * 2.0 / 3.0 * THICKNESS[2] * 5.0 / 4.0 * 3.0 / 2.0 * DISC;
         let depth = |byte: u8| f32::from(byte) / 255.0 * MOST_DEPTH;
         for found in [
             own.above,

@@ -84,7 +84,7 @@ pub fn screen_view(
         clip_z: (slope * screen.clip_w.truncate()).extend(start),
         clip_w: screen.clip_w,
         height_m: frame.camera.position_m().y,
-        pixel_rad: pixel_width.max(pixel_height),
+        pixel_rad: super::SOFT * pixel_width.max(pixel_height),
         cell_texels: cell_texels(sheet),
         ..Default::default()
     }

@@ -109,7 +109,7 @@ const DARK_BASE: [f32; 2] = [0.0, 0.5];
 const THICKNESS: [f32; 2] = [0.6, 1.1];
 /// Share of the phase function in what a sprite shows as a whole; rims show all of it.
 pub const PHASE: f32 = 0.08;
-/// Pixels that a texel covers: clouds have no edges as sharp as a screen's.
+/// Pixels of the screen that a texel of the sheet covers: clouds have no edges as sharp as a screen's.
 pub const SOFT: f32 = 1.6;
 /// How far the near side of a sprite's body is before its middle, in half sides.
 pub const BULGE: f32 = 0.35;

@@ -30,7 +30,6 @@ pub const PART: Part = Part {
         ("SPRITE_MOST_DEPTH", Value::F32(MOST_DEPTH)),
         ("SPRITE_MOST_HALVINGS", Value::F32(MOST_HALVINGS_M)),
         ("SPRITE_PHASE", Value::F32(super::PHASE)),
-        ("SPRITE_SOFT", Value::F32(super::SOFT)),
         ("SPRITE_BULGE", Value::F32(super::BULGE)),
         ("SPRITE_FRONT", Value::F32(super::FRONT)),
         ("SPRITE_SIDES", Value::F32(super::SIDES)),

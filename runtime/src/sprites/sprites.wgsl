@@ -222,7 +222,14 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
         return SpriteVaryings(vec4f(0.0, 0.0, 0.0, -1.0), vec2f(0.0), 0.0, vec4f(0.0), vec3f(0.0), vec3f(0.0), vec4f(0.0), vec3f(0.0));
     }
 
-    let corner = sprite_corner(instance.cell, index & ((1u << sprite_block.vertices_log2) - 1u));
+    let texels_a_pixel = sprite_view.cell_texels * sprite_view.pixel_rad * distance / (2.0 * sqrt(instance.half_size.x * instance.half_size.y));
+    // Far away a whole level: between two, every texel of every sprite would cost two reads.
+    let fine = max(log2(max(texels_a_pixel, 1e-6)), 0.0);
+    let level = select(fine, round(fine), sprite_block.vertices_log2 == 2u);
+    // A coarser level reaches farther by its texels.
+    let spread = 1.0 + exp2(level + 1.0) / sprite_view.cell_texels;
+    let outline = sprite_corner(instance.cell, index & ((1u << sprite_block.vertices_log2) - 1u));
+    let corner = clamp(outline * spread, vec2f(-1.0), vec2f(1.0));
     let axes = sprite_axes(instance, facing);
     let offset = axes * (corner * instance.half_size);
     let place = middle + offset;
@@ -251,10 +258,6 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     );
     let cell = vec2f(f32(instance.cell & 3u), f32(instance.cell >> 2u));
     let uv = (cell + vec2f(0.5, -0.5) * corner + 0.5) * 0.25;
-    let texels_a_pixel = SPRITE_SOFT * sprite_view.cell_texels * sprite_view.pixel_rad * distance / (2.0 * sqrt(instance.half_size.x * instance.half_size.y));
-    // Far away a whole level: between two, every texel of every sprite would cost two reads.
-    let fine = max(log2(max(texels_a_pixel, 1e-6)), 0.0);
-    let level = select(fine, round(fine), sprite_block.vertices_log2 == 2u);
     return SpriteVaryings(clip, uv, level, vec4f(seen, opacity), sunlit, skylit, shade.sun, shade.sky);
 }
 

@@ -6,7 +6,6 @@ mod depth;
 mod field;
 mod flight;
 mod formation;
-mod reference;
 mod ring;
 mod scene;
 mod twins;

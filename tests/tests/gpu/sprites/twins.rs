@@ -2,12 +2,12 @@
 
 use glam::{DVec3, Vec2, Vec3};
 use welkin_pack::Role;
-use welkin_runtime::internals::sprites::formation;
 use welkin_runtime::internals::sprites::grid::{BlockId, around};
 use welkin_runtime::internals::sprites::instances::{Instance, sections};
 use welkin_runtime::internals::sprites::outline::{BOXES_BEYOND_M, outlines};
 use welkin_runtime::internals::sprites::pipelines::SpriteBlock;
 use welkin_runtime::internals::sprites::station::SpriteView;
+use welkin_runtime::internals::sprites::{SOFT, formation};
 use welkin_runtime::params::{Lightning, Shading, SkyModel, SpriteParams};
 use welkin_runtime::{Camera, SkyParams};
 use welkin_tests::renderer::{FILTER_STEP, Frame, Twin};
@@ -169,7 +169,7 @@ fn radiance_of_sprites_agrees_in_a_float_target() {
                 .max(uniforms.camera.up.length() / uniforms.camera.height_px);
         let view = SpriteView {
             height_m: camera.position_m.y,
-            pixel_rad: pixel,
+            pixel_rad: SOFT * pixel,
             cell_texels: 128.0,
             ..Default::default()
         };
