@@ -89,7 +89,7 @@ fn toned(colours: &[Vec3], params: &SkyParams) -> Vec<Vec3> {
         uniforms.exposure.to_le_bytes(),
         uniforms.dither.to_le_bytes(),
         uniforms.curve.to_le_bytes(),
-        [0; 4],
+        uniforms.agx_start.to_le_bytes(),
     ];
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
