@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use welkin_runtime::internals::clouds::lit::{
     BANK, BANK_BLUR, DARKEST, FINER, FINER_RELIEF, FINER_START, GRAIN_DEEPER, GRAIN_DEPTH,
-    LEAST_STRETCH, MOST_SIDE, SHADED_BY_LAYER, SIDE_FROM, SIDE_LEVELS, SIDE_LIGHT, SOFTER,
+    LEAST_STRETCH, SHADED_BY_LAYER, SIDE_FROM, SIDE_LEVELS, SIDE_LIGHT, SOFTER,
 };
 use welkin_runtime::internals::clouds::lit::{LitLayerUniforms, LitUniforms};
 use welkin_runtime::internals::clouds::shared::MULTIPLE;
@@ -144,7 +144,7 @@ fn sided(
     let nudges =
         &inputs.nudges[READS * count(lit) + GRAIN_READS * iterations + SIDE_READS * iteration..];
     let across = Vec2::new(direction.x, direction.z);
-    let way = (layer.side * across.length() / direction.y.max(1e-4)).min(MOST_SIDE);
+    let way = (layer.side * across.length() / direction.y.max(1e-4)).min(layer.most_side);
     let out = across / across.length().max(1e-4) * way;
     let coarse = (level + layer.lod_bias).max(0.0);
     let side = read(inputs, index, plane + out, coarse + SIDE_LEVELS[0], nudges);

@@ -4,7 +4,7 @@ use glam::Vec3;
 use welkin_pack::LayerKind;
 
 use super::map::{OWN, RISES, ROLLS, SHARES};
-use super::{LitLayerUniforms, LitUniforms, SHADED_BY_LAYER, amounts, layer_opacity};
+use super::{LitLayerUniforms, LitUniforms, SHADED_BY_LAYER, amounts, layer_opacity, sided_at};
 use crate::clouds::shared::{CloudUniforms, scattered};
 use crate::geometry::math::smoothstep;
 
@@ -33,11 +33,12 @@ fn shares(
 
 /// What layers over the one of an index leave of the light: under an overcast the same everywhere.
 fn shade_from_above(lit: &LitUniforms, index: usize) -> f32 {
-    let above = lit.layers[..lit.count as usize].iter().skip(index + 1);
-    let shading = |layer: &LitLayerUniforms| {
-        let opacity = layer_opacity(layer);
+    let layers = lit.layers[..lit.count as usize].iter().enumerate();
+    let shading = |(index, layer): (usize, &LitLayerUniforms)| {
+        let opacity = layer_opacity(layer, sided_at(lit, index));
         opacity + (layer.opacity - opacity) * lit.overcast
     };
+    let above = layers.skip(index + 1);
     above
         .map(|layer| 1.0 - SHADED_BY_LAYER * shading(layer))
         .product()
@@ -54,7 +55,7 @@ pub(crate) fn mean_radiance(lit: &LitUniforms, clouds: &CloudUniforms) -> Vec3 {
     let (mut sum, mut clear) = (Vec3::ZERO, 1.0);
     for (index, layer) in lit.layers[..lit.count as usize].iter().enumerate() {
         let (mut whole, mut light, mut count) = (0.0, Vec3::ZERO, 0.0);
-        for amount in amounts() {
+        for amount in amounts(sided_at(lit, index)) {
             let thickness = (amount - layer.threshold).max(0.0);
             let alpha = layer.opacity * smoothstep(0.0, 1.0, layer.steepness * thickness);
             let [sunlit, skylit] = shares(lit, clouds, layer, amount);

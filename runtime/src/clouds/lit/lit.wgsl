@@ -82,7 +82,7 @@ fn lit_sided(base: vec4f, side: vec4f, far: vec4f, bank: f32) -> vec4f {
 // The lowest layer of an iteration where a ray meets it, with the sides of its clouds.
 fn lit_low(first: i32, direction: vec3f, plane: vec2f, level: f32) -> vec4f {
     let flat = max(length(direction.xz), 1e-4);
-    let rise = min(uniforms.lit.layers[first].side * flat / max(direction.y, 1e-4), LIT_MOST_SIDE);
+    let rise = min(uniforms.lit.layers[first].side * flat / max(direction.y, 1e-4), uniforms.lit.layers[first].most_side);
     let out = direction.xz * (rise / flat);
     let own_level = level + uniforms.lit.layers[first].lod_bias;
     let base = lit_read(first, plane, own_level);

@@ -35,6 +35,7 @@
 //! Six reads of texture arrays an iteration of three layers, used or not; ten by the paper's shading. Four passes of 256 texels and less an iteration.
 
 pub mod coverage;
+mod cut;
 pub mod light;
 mod look;
 pub mod map;
@@ -43,16 +44,15 @@ pub mod shadow;
 
 use glam::{DMat2, DVec2, Vec2, Vec3, Vec3Swizzles};
 
+use self::cut::{base_share, cut, shut, sided};
 use self::look::look;
 use crate::clouds::march::SunCell;
-use crate::clouds::shared::{
-    CloudUniforms, CloudView, OPAQUE, inverse_smoothstep, offset, overcast_weight, way_through,
-};
+use crate::clouds::shared::{CloudUniforms, CloudView, offset, overcast_weight, way_through};
 use crate::geometry::dome::{self, Hit, Mesh};
 use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
-use crate::params::{LitLayer, MAX_LAYERS, SkyParams};
+use crate::params::{LAYERS_AN_ITERATION, LitLayer, MAX_LAYERS, SkyParams};
 
 /// Its part of the shader.
 pub const PART: Part = Part {
@@ -68,7 +68,6 @@ pub const PART: Part = Part {
         ("LIT_SIDE_FROM", Value::F32(SIDE_FROM)),
         ("LIT_SIDE_LIGHT", Value::Vec2(SIDE_LIGHT)),
         ("LIT_SIDE_LEVELS", Value::Vec2(SIDE_LEVELS)),
-        ("LIT_MOST_SIDE", Value::F32(MOST_SIDE)),
         ("LIT_BANK", Value::Vec2(BANK)),
         ("LIT_BANK_BLUR", Value::F32(BANK_BLUR)),
         ("LIT_SOFTER", Value::Vec2(SOFTER)),
@@ -119,8 +118,8 @@ uniforms! {
         height_rate: f32,
         /// How far from its base one sees the side of a cloud at 45 degrees, in heights of the dome.
         side: f32,
-        /// Nothing.
-        _pad: f32,
+        /// And at most.
+        most_side: f32,
         /// Nothing.
         _pad2: Vec2,
     }
@@ -147,8 +146,8 @@ uniforms! {
         light_position: Vec2,
         /// How overcast the sky is, 0..1.
         overcast: f32,
-        /// Nothing.
-        _pad: f32,
+        /// How much more of the sky than by their bases the lowest clouds of an iteration cover by their sides: see [`base_share`].
+        sided: f32,
         /// Light of the sky on clouds.
         ambient: Vec3,
         /// The paper's m.
@@ -176,7 +175,7 @@ pub const SIDE_FROM: f32 = 0.3;
 pub const SIDE_LIGHT: [f32; 2] = [0.25, 0.15];
 /// How much coarser both are read, and how far from the base the near one is read at most, in heights of the dome.
 pub const SIDE_LEVELS: [f32; 2] = [1.2, 2.5];
-pub const MOST_SIDE: f32 = 0.16;
+const MOST_SIDE: f64 = 0.16;
 /// Sines of the elevation below which clouds are a bank, and from which they stand alone; how much of a bank is read coarser.
 pub const BANK: [f32; 2] = [0.05, 0.32];
 pub const BANK_BLUR: f32 = 0.6;
@@ -205,10 +204,6 @@ const CHANGE_WAY: DVec2 = DVec2::new(0.8, -0.6);
 const SHADE_OF_DENSITY: [f32; 2] = [0.6, 0.8];
 /// How much less an overcast sky is shaded: light comes from all sides.
 const EVENED: f32 = 0.65;
-/// Cover of a layer below which it is a trace.
-const TRACE: f32 = 0.02;
-/// Cover from which the sky shuts: more than seven oktas, which are to be seven.
-const SHUTTING: f32 = 0.9;
 
 /// Height of a cloud that is as thick as its layer's share of the sky, and the least such share that counts.
 const HEIGHT: f32 = 0.7;
@@ -218,11 +213,7 @@ const FIRST_RISE: f64 = 0.15;
 /// The lowest sun that the march knows, in radians: places towards a lower one would lie in other clouds.
 const LEAST_MARCH_RAD: f64 = 0.4;
 /// How many amounts of cloud a mean is taken of.
-const AMOUNTS: usize = 32;
-/// How much the cut goes below 0 in an overcast.
-const OVERCAST: f32 = 1.0;
-/// The opacity above which a direction counts as covered: where the cut lies.
-const COVERED: f32 = OPAQUE;
+const AMOUNTS: usize = 64;
 
 /// Where a ray from the viewer along a unit direction meets the oblate dome of this flattening.
 ///
@@ -260,7 +251,7 @@ pub fn uniforms(
     let mut layers = [LitLayerUniforms::default(); MAX_LAYERS];
     let mut count = 0;
     for (slot, (index, cover)) in layers.iter_mut().zip(drawn(params)) {
-        *slot = layer_uniforms(params, view, index, cover, sun);
+        *slot = layer_uniforms(params, view, [count, index], cover, sun);
         count += 1;
     }
     LitUniforms {
@@ -274,10 +265,10 @@ pub fn uniforms(
         k2: own.k2,
         light_position: seen.xz(),
         overcast: overcast_weight(params.cover),
+        sided: sided(params),
         ambient: clouds.ambient,
         m: own.m,
         layers,
-        ..Default::default()
     }
 }
 
@@ -308,7 +299,7 @@ pub(crate) fn layer_cover(params: &SkyParams, layer: &LitLayer) -> f32 {
 fn layer_uniforms(
     params: &SkyParams,
     view: &CloudView,
-    index: usize,
+    [slot, index]: [usize; 2],
     cover: f32,
     sun: Vec3,
 ) -> LitLayerUniforms {
@@ -328,7 +319,11 @@ fn layer_uniforms(
     // Of two steps each way; a viewer near the layer sees no farther than to the sun.
     let step = 0.5 * (look.thickness_m / (height_m * near)).min(1.0);
     let steepness = (1.0 + params.density) / look.opaque;
-    let threshold = cut(cover, steepness, look.opacity) - shut(params.cover);
+    let base = match slot % LAYERS_AN_ITERATION {
+        0 => base_share(sided(params), cover),
+        _ => cover,
+    };
+    let threshold = cut(base, steepness, look.opacity) - shut(params.cover);
     let seen = axes * near;
     let [thin, more] = SHADE_OF_DENSITY;
     LitLayerUniforms {
@@ -352,22 +347,10 @@ fn layer_uniforms(
         sun_step: (turn * march_step(sun) * (look.thickness_m / tile_m)).as_vec2(),
         extinction: look.extinction * (1.0 + params.density) * way_through(sun.y),
         height_rate: HEIGHT / (1.0 - threshold.max(0.0)).max(LEAST_SHARE),
-        side: step as f32,
+        side: (0.5 * look.thickness_m / (height_m * near)) as f32,
+        most_side: (MOST_SIDE / near) as f32,
         ..Default::default()
     }
-}
-
-/// The amount from which there is cloud, such that the densest `cover` of the layer counts as covered.
-fn cut(cover: f32, steepness: f32, opacity: f32) -> f32 {
-    let thin = inverse_smoothstep(COVERED / opacity) / steepness;
-    // A trace of cover brings its thin edge in by degrees.
-    let edge = thin * (cover / TRACE).min(1.0);
-    1.0 - cover - edge
-}
-
-/// How much lower every layer is cut where the sky shuts.
-fn shut(cover: f32) -> f32 {
-    OVERCAST * smoothstep(SHUTTING, 1.0, cover)
 }
 
 /// A step towards the sun, in thicknesses of the clouds (east, south).
@@ -376,18 +359,27 @@ fn march_step(sun: Vec3) -> DVec2 {
     cell.towards * (FIRST_RISE / cell.elevation_rad.max(LEAST_MARCH_RAD).tan())
 }
 
-/// Mean opacity of a layer.
-pub(crate) fn layer_opacity(layer: &LitLayerUniforms) -> f32 {
+/// What sides add to the share of a layer, by its place from the lowest: see [`base_share`].
+fn sided_at(lit: &LitUniforms, index: usize) -> f32 {
+    match index % LAYERS_AN_ITERATION {
+        0 => lit.sided,
+        _ => 0.0,
+    }
+}
+
+/// Mean opacity of a layer to which sides add so much.
+fn layer_opacity(layer: &LitLayerUniforms, sided: f32) -> f32 {
     let opacity = |amount: f32| {
         let thickness = (amount - layer.threshold).max(0.0);
         layer.opacity * smoothstep(0.0, 1.0, layer.steepness * thickness)
     };
-    amounts().map(opacity).sum::<f32>() / AMOUNTS as f32
+    amounts(sided).map(opacity).sum::<f32>() / AMOUNTS as f32
 }
 
-/// Amounts of cloud, each of which is as likely as any other.
-pub(super) fn amounts() -> impl Iterator<Item = f32> {
-    (0..AMOUNTS).map(|i| (i as f32 + 0.5) / AMOUNTS as f32)
+/// Amounts of cloud, each of which is seen as often as any other where sides add so much: all of them alike but for these.
+fn amounts(sided: f32) -> impl Iterator<Item = f32> {
+    let thinner = (0..AMOUNTS).map(|i| (i as f32 + 0.5) / AMOUNTS as f32);
+    thinner.map(move |thinner| 1.0 - base_share(sided, 1.0 - thinner))
 }
 
 #[cfg(test)]

@@ -43,7 +43,7 @@ pub fn overcast(lit: &LitUniforms) -> Vec3 {
 /// Mean opacity of a layer, and the mean of what its clouds leave of the light.
 fn layer_means(layer: &LitLayerUniforms, m: f32) -> [f32; 2] {
     let (mut opacity, mut left, mut count) = (0.0, 0.0, 0.0);
-    for amount in amounts() {
+    for amount in amounts(0.0) {
         let thickness = (amount - layer.threshold.max(0.0)).max(0.0);
         let cut = (amount - layer.threshold).max(0.0);
         let alpha = layer.opacity * smoothstep(0.0, 1.0, layer.steepness * cut);
@@ -57,7 +57,7 @@ fn layer_means(layer: &LitLayerUniforms, m: f32) -> [f32; 2] {
 /// What layers over the one of an index leave of the light, on average.
 fn shade_from_above(lit: &LitUniforms, index: usize) -> f32 {
     let above = lit.layers[..lit.count as usize].iter().skip(index + 1);
-    let left = above.map(|layer| 1.0 - SHADED_BY_LAYER * layer_opacity(layer));
+    let left = above.map(|layer| 1.0 - SHADED_BY_LAYER * layer_opacity(layer, 0.0));
     left.product()
 }
 

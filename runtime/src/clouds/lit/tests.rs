@@ -3,6 +3,7 @@
 use glam::DVec3;
 use welkin_pack::LayerKind;
 
+use super::cut::{COVERED, SIDED};
 use super::*;
 use crate::params::LitParams;
 
@@ -119,4 +120,14 @@ fn every_layer_moves_by_itself_and_a_walk_moves_them_alike() {
         before.layers[0].second_offset,
         after.layers[0].second_offset
     );
+}
+
+#[test]
+fn bases_and_their_sides_cover_the_cover() {
+    for sided in [0.0, SIDED] {
+        for share in [0.0, 0.2, 0.6, 1.0] {
+            let base = base_share(sided, share);
+            assert!((base + sided * base * (1.0 - base) - share).abs() < 1e-6);
+        }
+    }
 }
