@@ -9,7 +9,7 @@
 //! they meet. A sprite sees its own cloud, and those of lower rank, which are there whenever it is.
 //!
 //! # Practice
-//! Depths are halvings of light most of which is scattered on forwards, far fewer than Beer's law has: a puff counts two through its middle.
+//! Depths are halvings of light most of which is scattered on forwards, far fewer than Beer's law has: a puff counts four through its middle.
 //! Time goes with the sprites: nine rays of at most four kilometres each, 25 microseconds a sprite.
 
 use super::{Cloud, Field, Sprite};
@@ -29,7 +29,7 @@ pub struct Exposure {
 }
 
 /// Depth through the middle of a sprite, in halvings.
-const THICKNESS: [f32; 3] = [0.4, 0.5, 2.6];
+const THICKNESS: [f32; 3] = [0.7, 0.8, 4.3];
 
 /// Half axes of the ellipsoid as shares of the sprite's width and height: more than a picture shows, since light is scattered to and fro between
 /// neighbours, which have about as much of it.
@@ -171,11 +171,11 @@ impl Grid {
                 }
             }
         }
-        // The mean depth over a disc is 2/3 of that through the middle of a ball.
+        // Density falls off with the square of the radius: over its disc a ball has 2/5 of the depth through its middle.
         let area = std::f32::consts::PI * (WIDE * width) * (WIDE * width);
         let volume = self.cell_m * self.cell_m * self.cell_m;
         let opacity = 0.5 * (cloud.levels[0].rgba[3] + cloud.levels[4].rgba[3]);
-        let amount = 2.0 / 3.0 * thickness * opacity * area / volume;
+        let amount = 0.4 * thickness * opacity * area / volume;
         for (index, weight) in cells {
             self.halvings_m[index] += amount * weight / sum;
         }
@@ -299,9 +299,7 @@ mod tests {
         let [own] = exposed(&[&[sprite([2000.0, 1000.0, 2000.0], 1000.0)]])[0][..] else {
             panic!("one sprite");
         };
-        // 2/3 of the thickness is the mean over its disc; through the middle of the ball 5/4 of its mean, as density falls off with the square of the
-        // radius and chords are shorter outwards. Half of it is above.
-        let expected = 0.5 * 2.0 / 3.0 * THICKNESS[2] * 5.0 / 4.0 * 3.0 / 2.0 * DISC;
+        let expected = 0.5 * THICKNESS[2];
         let depth = |byte: u8| f32::from(byte) / 255.0 * MOST_DEPTH;
         for found in [
             own.above,
