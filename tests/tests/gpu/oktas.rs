@@ -149,7 +149,6 @@ fn assert_shows(name: &str, skies: &mut [Calibrated], params: &SkyParams, by: By
         let (mean, scatter) = mean_and_scatter(&frames);
         let told = 3.0 * scatter / (frames.len() as f32).sqrt();
         if told < BOUND_OKTAS {
-            println!("{name}, {oktas} oktas: {mean:.2}, one frame scatters by {scatter:.2}");
             assert!(
                 (mean - oktas).abs() < BOUND_OKTAS,
                 "{name}, {oktas} oktas: {mean} in the mean, one frame scatters by {scatter}"

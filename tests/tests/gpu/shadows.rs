@@ -6,8 +6,9 @@ use glam::{DVec2, Vec2, Vec3};
 use welkin_pack::role::Wrap;
 use welkin_pack::{Image, LayerKind, mapping};
 use welkin_runtime::internals::clouds::lit::shadow::SIDE;
+use welkin_runtime::internals::clouds::lit::{BANK_BLUR, SIDE_FROM};
 use welkin_runtime::params::MAX_LAYERS;
-use welkin_runtime::params::{LitLayer, LitParams};
+use welkin_runtime::params::{LAYERS_AN_ITERATION, LitLayer, LitParams};
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::film::Film;
 use welkin_tests::renderer::{Frame, Twin};
@@ -81,11 +82,19 @@ impl Shadows {
 }
 
 /// What opacities may differ by where each read of each layer is off by a step of 8-bit filtering: that step, times what
-/// the finer read makes of it, `z + s (r - 1/2) z (1 - z)`, whose slopes are at most `1 + s/2` and `s/4`.
+/// the finer read makes of it, `z + s (r - 1/2) z (1 - z)`, whose slopes are at most `1 + s/2` and `s/4`. The lowest layer of an iteration is read
+/// at its base, at the side of its clouds and beyond: its opacity rises with these by slopes of at most 1, `1 / (1 - SIDE_FROM)` and `BANK_BLUR + 2`.
 fn worth_of_a_step(frame: &Frame) -> f32 {
     let lit = &frame.uniforms.lit;
-    let layers = lit.layers.iter().take(lit.count as usize);
-    layers.map(|layer| 1.0 + 0.75 * layer.grain).sum::<f32>() / 255.0
+    let layers = lit.layers.iter().take(lit.count as usize).enumerate();
+    let steps = layers.map(|(index, layer)| {
+        let reads = match index % LAYERS_AN_ITERATION {
+            0 => 1.0 + 1.0 / (1.0 - SIDE_FROM) + BANK_BLUR + 2.0,
+            _ => 1.0,
+        };
+        reads * (1.0 + 0.5 * layer.grain) + 0.25 * layer.grain
+    });
+    steps.sum::<f32>() / 255.0
 }
 
 /// Times of the day: noon, a sun at 12 degrees, a moon.
