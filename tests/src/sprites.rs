@@ -12,7 +12,6 @@ use welkin_runtime::internals::sprites::station::SpriteView;
 use welkin_runtime::internals::sprites::{
     BULGE, FRONT, LEAST_SKY, PHASE, RIM_OPAQUE, SIDES, SpriteUniforms, formation,
 };
-use welkin_runtime::params::Shading;
 
 use crate::texture::{Texture, smoothstep};
 use crate::{clouds, sky};
@@ -32,8 +31,6 @@ pub struct Inputs<'a> {
     pub sheet: &'a Texture,
     /// Outlines of its cells.
     pub outlines: &'a [Outline],
-    /// Which light sprites have.
-    pub shading: Shading,
 }
 
 /// A corner of a sprite.
@@ -169,13 +166,14 @@ pub fn placed(
         _ => fine,
     };
     let spread = 1.0 + 2.0 * libm::exp2f(level) / inputs.view.cell_texels;
-    let corners = outline.iter().map(|corner| {
-        let [x, y] = corner.map(|side| (side * spread).clamp(-1.0, 1.0));
+    let corners = outline.iter().map(|place| {
+        let [x, y] = place.map(|side| (side * spread).clamp(-1.0, 1.0));
         let offset = axes[0] * x + axes[1] * y;
         let share = (0.5 + 0.5 * offset.y / half_height).clamp(0.0, 1.0);
-        let shade = match inputs.shading {
-            Shading::Scattered => scattered(inputs, instance, turned, offset, middle),
-            Shading::Paper => article(inputs, instance, offset, share),
+        let shade = if own.thickness > 0.0 {
+            scattered(inputs, instance, turned, offset, middle)
+        } else {
+            article(inputs, instance, offset, share)
         };
         let corner = corner(
             inputs, instance, middle, offset, share, opacity, amount, shade,
@@ -223,8 +221,8 @@ fn scattered(
     let to_sun = own.light_direction;
     let share = |byte: u8| f32::from(byte) / 255.0;
     let facing = turned[2];
-    let surface = offset + facing * BULGE * instance.radius_m();
-    let halvings_m = share(instance.above[2]) * MOST_HALVINGS_M;
+    let radius = instance.radius_m();
+    let halvings = share(instance.above[2]) * MOST_HALVINGS_M * radius;
     // East, south, west, north; the side that the sun is on counts.
     let side = |positive: usize, negative: usize, cosine: f32| {
         let number = if cosine > 0.0 { positive } else { negative };
@@ -233,17 +231,28 @@ fn scattered(
     let depth = side(0, 2, to_sun.x)
         + side(1, 3, to_sun.z)
         + share(instance.above[0]) * MOST_DEPTH * to_sun.y * to_sun.y;
-    let depth = own.thickness * (depth - halvings_m * surface.dot(to_sun)).max(0.0);
+    let depth = own.thickness * (depth - BULGE * halvings * facing.dot(to_sun)).max(0.0);
     let phase = clouds::phase((middle + offset).normalize().dot(to_sun));
-    let through = libm::exp2f(-depth);
-    let sunlit =
-        MULTIPLE[0] * libm::exp2f(-MULTIPLE[1] * depth) + (SINGLE[0] + PHASE * phase) * through;
-    let open = share(instance.above[1]) * libm::exp2f(0.5 * halvings_m * surface.y);
+    let sunlit = |depth: f32| {
+        MULTIPLE[0] * libm::exp2f(-MULTIPLE[1] * depth)
+            + (SINGLE[0] + PHASE * phase) * libm::exp2f(-depth)
+    };
+    let more = own.thickness * halvings;
+    // From a radius beyond the middle to a radius before it.
+    let between =
+        |far: f32, near: f32, cosine: f32| far + (near - far) * (0.5 + 0.5 * cosine / radius);
+    let (far, near) = (sunlit(depth + more), sunlit((depth - more).max(0.0)));
+    let sunlit = between(far, near, offset.dot(to_sun)).max(0.0);
+    let open = |up: f32| {
+        let halvings = halvings * (BULGE * facing.y + up);
+        (share(instance.above[1]) * libm::exp2f(0.5 * halvings)).min(1.0)
+    };
+    let open = between(open(-1.0), open(1.0), offset.y).clamp(0.0, 1.0);
     let [right, top, front] = turned.map(|axis| axis.dot(to_sun));
-    let rim = SINGLE[1] * (-front).max(0.0) * phase * through;
+    let rim = SINGLE[1] * (-front).max(0.0) * phase * libm::exp2f(-depth);
     Shade {
         sunlit: own.light * sunlit,
-        skylit: own.ambient * (LEAST_SKY + (1.0 - LEAST_SKY) * open.min(1.0)),
+        skylit: own.ambient * (LEAST_SKY + (1.0 - LEAST_SKY) * open),
         sun: own.relief
             * Vec4::new(
                 FRONT + (1.0 - FRONT) * front.max(0.0),
@@ -298,9 +307,10 @@ fn corner(
     let rim = rim(own, middle.length());
     let clear = clearness(own, inputs.view.height_m, place) * rim;
     let sunlit = shade.sunlit * tint * clear;
-    let skylit = match inputs.shading {
-        Shading::Scattered => shade.skylit * tint * clear,
-        Shading::Paper => shade.skylit * clear,
+    let skylit = if own.thickness > 0.0 {
+        shade.skylit * tint * clear
+    } else {
+        shade.skylit * clear
     };
     let [from_cloud, centre] = [offset, Vec3::ZERO]
         .map(|offset| (instance.from_cloud_m() + offset).length() / instance.cloud_radius_m());

@@ -19,7 +19,7 @@ use super::grid::BlockId;
 /// Distance at which facing is locked, in radii.
 pub const LOCK: f32 = 0.5;
 /// Distance along the way it faces at which a sprite begins to thin out, in radii.
-pub const NEAR: f32 = 0.5;
+pub const NEAR: f32 = 2.0;
 /// The most locks; within half a radius there are no more than some dozen sprites.
 const MOST: usize = 256;
 

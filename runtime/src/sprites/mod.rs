@@ -82,7 +82,7 @@ uniforms! {
         billboards_m: f32,
         /// Light of a flash of lightning where it strikes.
         flash: Vec3,
-        /// Factor on depths.
+        /// Factor on depths; 0 where the shading is the article's.
         thickness: f32,
         /// From the viewer to the flash, m.
         flash_position: Vec3,
@@ -138,20 +138,19 @@ pub fn uniforms(
     flash: Vec3,
 ) -> SpriteUniforms {
     let own = &params.sprites;
+    // The table of hours is the article's, and made for its shading.
+    let is_scattered = params.shading == Shading::Scattered && !own.hours;
     let lit = match own.hours {
         true => {
             let factor = moonlit(light, params.moon) * shared::underside_light(params);
             hours::of_hour(&hours::at(hours, params.time), factor)
         }
-        false => hours::of_sky(clouds),
-    };
-    let lit = match params.shading {
-        Shading::Scattered if !own.hours => hours::SpriteLight {
+        false if is_scattered => hours::SpriteLight {
             direct: clouds.sunlight,
             ambient: clouds.ambient,
-            ..lit
+            ..hours::of_sky(clouds)
         },
-        _ => lit,
+        false => hours::of_sky(clouds),
     };
     let mix = |[from, to]: [f32; 2]| from + (to - from) * params.density;
     let billboards = own.billboards_beyond_m;
@@ -179,7 +178,7 @@ pub fn uniforms(
         flash,
         flash_position: flash_place.as_vec3(),
         flash_per_m: 1.0 / FLASH_REACH_M,
-        thickness: mix(THICKNESS),
+        thickness: if is_scattered { mix(THICKNESS) } else { 0.0 },
     }
 }
 

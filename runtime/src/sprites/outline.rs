@@ -5,8 +5,8 @@
 //! from Avalanche Studios", SIGGRAPH 2012 ("Particle Trimming").
 //!
 //! # Practice
-//! Found once from the alpha of the sheet's largest level, whatever is on it. Coarser levels spread by up to their texels; the outline
-//! leaves a thirty-second of the half side for it.
+//! Found once from the alpha of the sheet's largest level, whatever is on it, with a thirty-second of the half side to spare. The shader
+//! widens it by what coarser levels spread.
 
 use welkin_pack::{SheetCell, Texture};
 

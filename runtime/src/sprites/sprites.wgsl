@@ -134,25 +134,33 @@ struct SpriteShade {
     sky: vec3f,
 }
 
-// Light once and many times scattered, with what of it the sides of the picture take: docs/clouds.md.
+// Share of sunlight that is scattered once, as `single` to this direction, and many times.
+fn sprite_sunlit(depth: f32, single: f32) -> f32 {
+    return CLOUD_MULTIPLE.x * exp2(-CLOUD_MULTIPLE.y * depth) + single * exp2(-depth);
+}
+
+// Light once and many times scattered, with what of it the sides of the picture take: docs/clouds.md. Over a sprite it changes evenly, between
+// what is a radius nearer to the light and as much farther, so that outlines and boxes show the same.
 fn sprite_scattered(instance: SpriteInstance, axes: mat2x3f, facing: vec3f, offset: vec3f, direction: vec3f) -> SpriteShade {
     let own = uniforms.sprites;
     let sun = own.light_direction;
-    // What is seen is the near side of a body.
     let radius = max(instance.half_size.x, instance.half_size.y);
-    let surface = offset + (SPRITE_BULGE * radius) * facing;
-    let depth = own.thickness * max(sprite_depth(instance) - instance.halvings_m * dot(surface, sun), 0.0);
+    let halvings = instance.halvings_m * radius;
+    // What is seen is the near side of a body.
+    let depth = own.thickness * max(sprite_depth(instance) - SPRITE_BULGE * halvings * dot(facing, sun), 0.0);
+    let more = own.thickness * halvings;
     let cosine = dot(direction, sun);
     let root = inverseSqrt(CLOUD_FORWARD.y - CLOUD_FORWARD.z * cosine);
     let phase = min(CLOUD_FORWARD.x * root * root * root + CLOUD_BACKWARD.x - CLOUD_BACKWARD.y * cosine, CLOUD_BRIGHTEST);
-    let through = exp2(-depth);
-    let many = CLOUD_MULTIPLE.x * exp2(-CLOUD_MULTIPLE.y * depth);
-    let sunlit = many + (CLOUD_SINGLE.x + SPRITE_PHASE * phase) * through;
-    let skylit = min(instance.sky * exp2(0.5 * instance.halvings_m * surface.y), 1.0);
+    let single = CLOUD_SINGLE.x + SPRITE_PHASE * phase;
+    let place = vec2f(dot(offset, sun), offset.y) / radius * 0.5 + 0.5;
+    let sunlit = max(mix(sprite_sunlit(depth + more, single), sprite_sunlit(max(depth - more, 0.0), single), place.x), 0.0);
+    let open = instance.sky * exp2(0.5 * SPRITE_BULGE * halvings * facing.y + vec2f(-0.5, 0.5) * halvings);
+    let skylit = clamp(mix(min(open.x, 1.0), min(open.y, 1.0), place.y), 0.0, 1.0);
     let towards = vec3f(dot(axes[0], sun), dot(axes[1], sun), dot(facing, sun));
     let up = vec3f(axes[0].y, axes[1].y, facing.y);
     let front = mix(SPRITE_FRONT, 1.0, max(towards.z, 0.0));
-    let rim = CLOUD_SINGLE.y * max(-towards.z, 0.0) * phase * through;
+    let rim = CLOUD_SINGLE.y * max(-towards.z, 0.0) * phase * exp2(-depth);
     return SpriteShade(
         sunlit * own.light,
         (SPRITE_LEAST_SKY + (1.0 - SPRITE_LEAST_SKY) * skylit) * own.ambient,
@@ -241,13 +249,14 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     let formed = sprite_formed(amount, places.x, places.y);
     opacity *= formed * mix(instance.low.a, instance.high.a, up);
     var shade = sprite_article(instance, offset, up);
-    if SCATTERED {
+    let is_scattered = own.thickness > 0.0;
+    if is_scattered {
         shade = sprite_scattered(instance, axes, facing, offset, direction);
     }
     let clearness = sprite_clearness(place, away) * rim;
     let tint = clearness * mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
     let sunlit = shade.sunlit * tint;
-    let skylit = shade.skylit * select(vec3f(clearness), tint, SCATTERED);
+    let skylit = shade.skylit * select(vec3f(clearness), tint, is_scattered);
     let seen = sunlit + skylit + sprite_flash(place) * clearness + sky_radiance(direction) * (1.0 - clearness);
 
     let clip = vec4f(

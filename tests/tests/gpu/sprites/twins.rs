@@ -180,7 +180,6 @@ fn radiance_of_sprites_agrees_in_a_float_target() {
             sky: &frame.sky,
             sheet: &sheet,
             outlines: &outlines,
-            shading: params.shading,
         };
         let lifted = camera.position_m.as_dvec3();
         let sprites = stand(&inputs, &params, lifted, 0.0);
