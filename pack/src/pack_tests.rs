@@ -345,12 +345,12 @@ fn open_with_manifest(change: impl Fn(&str) -> String) -> String {
 #[test]
 fn another_version_is_refused_for_its_version() {
     let error = open_with_manifest(|text| {
-        text.replace("\"version\": 6", "\"version\": 3")
+        text.replace("\"version\": 7", "\"version\": 3")
             .replace("\"seed\"", "\"seeds\"")
     });
     assert_eq!(
         error,
-        "p/pack.json: version is 3, expected 6; use a welkin that knows this version, or bake again"
+        "p/pack.json: version is 3, expected 7; use a welkin that knows this version, or bake again"
     );
 }
 

@@ -35,13 +35,14 @@ impl Lights {
         });
         let step = 2.0 * REACH / SIDE as f32;
         let mut cells = vec![[0.0; 6]; extinctions.len()];
-        for direction in 0..6 {
-            let axis = direction / 2;
+        // The first of each pair comes from the end of the axis.
+        for (direction, (axis, is_first)) in
+            (0..3).flat_map(|a| [(a, true), (a, false)]).enumerate()
+        {
             for (a, b) in (0..SIDE).flat_map(|a| (0..SIDE).map(move |b| (a, b))) {
                 let mut depth = 0.0;
                 for i in 0..SIDE {
-                    // The first of each pair comes from the end of the axis.
-                    let along = if direction % 2 == 0 { SIDE - 1 - i } else { i };
+                    let along = if is_first { SIDE - 1 - i } else { i };
                     let cell = match axis {
                         0 => [along, a, b],
                         1 => [a, along, b],

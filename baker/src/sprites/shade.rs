@@ -48,7 +48,7 @@ pub(super) fn level(picture: &Image) -> Image {
 fn cell(front: &Image, sides: [&Image; 2]) -> Image {
     let mut cell = Image::new(front.width, front.height, 4);
     for (i, texel) in cell.texels.chunks_exact_mut(4).enumerate() {
-        let [right, top] = sides.map(|side| side.texels[i * side.channels as usize]);
+        let [right, top] = sides.map(|side| side.texels[i * side.channels]);
         texel.copy_from_slice(&[front.texels[2 * i], front.texels[2 * i + 1], right, top]);
     }
     cell

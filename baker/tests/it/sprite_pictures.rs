@@ -89,7 +89,7 @@ fn told(error: BakeError, parts: &[&str]) {
 #[test]
 fn a_sheet_of_the_right_size_keeps_its_opacity_texel_by_texel() {
     let sheet = from_sheet(&png(discs(32))).unwrap();
-    for (pixel, texel) in discs(32).pixels().zip(sheet.texels.chunks_exact(2)) {
+    for (pixel, texel) in discs(32).pixels().zip(sheet.texels.chunks_exact(4)) {
         assert!((texel[1] - f32::from(pixel.0[3]) / 255.0).abs() < 1e-6);
         // One colour: its luminance is the mean.
         assert!((texel[0] - 0.5).abs() < 1e-3);

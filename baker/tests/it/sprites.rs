@@ -21,12 +21,12 @@ fn by_seeds() -> &'static [Image] {
     SHEETS.get_or_init(|| (1..=3).map(|seed| sheet("", seed)).collect())
 }
 
-/// Grey and opacity of the cells.
+/// The cells.
 fn cells(sheet: &Image) -> Vec<(SheetKind, Image)> {
     let side = sheet.width / SheetCell::A_SIDE;
     let cells = (0..SheetCell::COUNT).map(SheetCell).map(|cell| {
         let [left, top] = cell.place().map(|i| i * side);
-        let mut image = Image::new(side, side, 2);
+        let mut image = Image::new(side, side, 4);
         for (x, y) in places(side) {
             image
                 .texel_mut(x, y)
@@ -48,7 +48,7 @@ fn peak(cell: &Image) -> f32 {
 /// Mean and standard deviation of the grey, weighted by opacity.
 fn grey(cell: &Image) -> [f32; 2] {
     let weighted = |value: &dyn Fn(f32) -> f32| {
-        let texels = cell.texels.chunks_exact(2);
+        let texels = cell.texels.chunks_exact(4);
         let sum: f64 = texels.map(|t| f64::from(t[1] * value(t[0]))).sum();
         (sum / cell.channel(1).map(f64::from).sum::<f64>()) as f32
     };

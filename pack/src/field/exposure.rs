@@ -9,7 +9,7 @@
 //! they meet. A sprite sees its own cloud, and those of lower rank, which are there whenever it is.
 //!
 //! # Practice
-//! Depths are halvings of light most of which is scattered on forwards, far fewer than Beer's law has: a puff counts four through its middle.
+//! Depths are halvings of light most of which is scattered on forwards, far fewer than Beer's law has: a puff counts three through its middle.
 //! Time goes with the sprites: nine rays of at most four kilometres each, 25 microseconds a sprite.
 
 use super::{Cloud, Field, Sprite};
@@ -29,7 +29,7 @@ pub struct Exposure {
 }
 
 /// Depth through the middle of a sprite, in halvings.
-const THICKNESS: [f32; 3] = [0.7, 0.8, 4.3];
+const THICKNESS: [f32; 3] = [0.5, 0.6, 3.0];
 
 /// Half axes of the ellipsoid as shares of the sprite's width and height: more than a picture shows, since light is scattered to and fro between
 /// neighbours, which have about as much of it.
@@ -43,6 +43,9 @@ const FINE_SECTIONS: u32 = 3;
 /// Cells that a sprite reaches at most from its middle, and that the grid has upwards: what is larger is not a cloud.
 const MOST_REACH: f32 = 16.0;
 const MOST_LEVELS: usize = 192;
+
+/// Cells from the origin beyond which no place is told apart.
+const FAR: f32 = 1e6;
 
 /// How far a ray goes, in metres.
 const REACH_M: f32 = 4000.0;
@@ -122,7 +125,12 @@ impl Grid {
             ];
             [low.min(y - half), high.max(y + half)]
         });
-        let base_m = if base < top { base - cell_m } else { 0.0 };
+        // Cells are where they are, whatever clouds there are.
+        let base_m = if base < top {
+            (libm::floorf(base / cell_m) - 1.0) * cell_m
+        } else {
+            0.0
+        };
         let levels = libm::ceilf((top - base_m).max(0.0) / cell_m) as usize + 2;
         let levels = levels.min(MOST_LEVELS);
         Grid {
@@ -188,6 +196,7 @@ impl Grid {
             (y - self.base_m) / self.cell_m,
             z / self.cell_m,
         ]
+        .map(|c| c.clamp(-FAR, FAR))
     }
 
     fn index(&self, [x, y, z]: [i64; 3]) -> Option<usize> {
@@ -207,7 +216,7 @@ impl Grid {
             let weight: f32 = (0..3)
                 .map(|a| if bits[a] == 1 { part[a] } else { 1.0 - part[a] })
                 .product();
-            let cell = std::array::from_fn(|a| corner[a] + bits[a] as i64);
+            let cell = std::array::from_fn(|a| corner[a] + i64::from(bits[a]));
             sum += weight * self.index(cell).map_or(0.0, |index| self.halvings_m[index]);
         }
         sum
@@ -334,8 +343,8 @@ mod tests {
 
     #[test]
     fn bases_are_darker_than_tops() {
-        let tower: Vec<Sprite> = (0..5)
-            .map(|i| sprite([2000.0, 1000.0 + 200.0 * i as f32, 2000.0], 500.0))
+        let tower: Vec<Sprite> = (0..3)
+            .map(|i| sprite([2000.0, 1000.0 + 300.0 * i as f32, 2000.0], 300.0))
             .collect();
         let found = &exposed(&[&tower])[0];
         for pair in found.windows(2) {

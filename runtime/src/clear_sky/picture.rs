@@ -99,7 +99,7 @@ pub(crate) fn image(size: [u32; 2], radiance: &[Vec3], aureole: &[Vec3]) -> Imag
     let mut image = Image::new(width, height, 4);
     for y in 0..height {
         let sine = places.height(y);
-        let row = (0..places.columns).map(|x| sky.from_the_side(places.sideways(x), sine));
+        let row = (0..places.columns).map(|x| sky.at_place(places.sideways(x), sine));
         // Below the sun.
         for (x, texel) in row.chain([light.at(1.0, sine)]).enumerate() {
             // As half floats have it, so that twins read what the device reads.
@@ -133,7 +133,7 @@ impl Table {
     }
 
     /// Where a direction goes so far to the sun's azimuth and up. Beyond the edge of the half disc it goes on as it comes from inside.
-    fn from_the_side(&self, sideways: f32, sine: f32) -> Vec4 {
+    fn at_place(&self, sideways: f32, sine: f32) -> Vec4 {
         let radius = sideways.hypot(sine);
         let along = |share: f32| {
             let flat = (1.0 - sine * sine * share * share).max(1e-12).sqrt();
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sky_that_is_linear_seen_from_the_side_stays_so_beyond_its_edge() {
+    fn a_sky_that_is_linear_seen_at_place_stays_so_beyond_its_edge() {
         let size = [65, 129];
         let texel = |i: usize| {
             let (x, y) = (i % size[0] as usize, i / size[0] as usize);
@@ -197,7 +197,7 @@ mod tests {
             (-0.9, 0.45),
             (1.0, 0.02),
         ] {
-            let seen = table.from_the_side(sideways, sine).x;
+            let seen = table.at_place(sideways, sine).x;
             let wanted = 2.0 + sideways + 0.5 * sine;
             assert!(
                 (seen - wanted).abs() < 5e-3,

@@ -147,7 +147,7 @@ fn side_files_hold_every_channel_as_stored_and_as_made() {
     // Two layers of the smooth noise: the small recipe's lattice has no room for more.
     assert_eq!(
         stems(&png).len(),
-        4 + 4 + 1 + 4 + 2 + 4 + 2 * 4 + 1 + 3 * 4 + 2
+        4 + 4 + 1 + 4 + 2 + 4 + 2 * 4 + 1 + 3 * 4 + 4
     );
 
     let pack = welkin_pack::Pack::open(&pack).unwrap();

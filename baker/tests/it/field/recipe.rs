@@ -139,7 +139,7 @@ fn memory_is_bounded_by_what_the_recipe_says() {
     );
     // The figures of docs/field.md, on machines of 64 bits.
     if cfg!(target_pointer_width = "64") {
-        assert_eq!(few.bytes, 1000 * (96 + 128 + 336));
-        assert_eq!(many.bytes, 65_536 * 96 + 16_384 * 128 + 4096 * 336);
+        assert_eq!(few.bytes, 1000 * (112 + 128 + 336));
+        assert_eq!(many.bytes, 65_536 * 112 + 16_384 * 128 + 4096 * 336);
     }
 }

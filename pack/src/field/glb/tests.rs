@@ -116,7 +116,7 @@ fn counts_that_lie_are_refused_before_they_are_believed() {
     );
     let error = blamed(|json| accessor(json, "TRANSLATION")["count"] = json!(60_000));
     assert!(
-        error.contains("sprites.TRANSLATION is 60000 elements at every 40 bytes"),
+        error.contains("sprites.TRANSLATION is 60000 elements at every 48 bytes"),
         "{error}"
     );
     let error = blamed(|json| accessor(json, "_CELL")["count"] = json!(3));
