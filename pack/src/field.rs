@@ -8,8 +8,6 @@ mod exposure;
 pub(crate) mod glb;
 mod verify;
 
-pub use exposure::{Exposure, MOST_DEPTH, MOST_HALVINGS_M};
-
 /// Side of a section, in metres: the article counts sprites and boxes in blocks of 16 square kilometres.
 pub const SECTION_SIDE_M: f32 = 4000.0;
 
@@ -266,3 +264,22 @@ pub struct Sprite {
     /// Light that gets to it: see [`Field::expose`].
     pub exposure: Exposure,
 }
+
+/// What light gets to a sprite, as it is stored.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Exposure {
+    /// Halvings of sunlight on its way from just above the horizon in the east, south, west and north, in 255ths of [`MOST_DEPTH`].
+    pub sides: [u8; 4],
+    /// The same from above.
+    pub above: u8,
+    /// Share of the sky's light that gets there, in 255ths.
+    pub sky: u8,
+    /// Halvings a metre about it, in 255ths of [`MOST_HALVINGS_M`].
+    pub halvings: u8,
+}
+
+/// The largest depth that is stored, in halvings.
+pub const MOST_DEPTH: f32 = 16.0;
+
+/// The most halvings a metre that are stored.
+pub const MOST_HALVINGS_M: f32 = 0.064;

@@ -9,31 +9,32 @@
 
 use rayon::prelude::*;
 
-use super::march::{Body, REACH};
-
-/// Cells a side of the grid, which is as wide as a cloud reaches.
+/// Cells a side of the grid.
 const SIDE: usize = 40;
 
 /// Optical depths on the way from each side: x from the right and left, y from the top and bottom, z from the front and back.
 type Depths = [f32; 6];
 
 pub(super) struct Lights {
+    /// Half of the side of the grid.
+    reach: f32,
     /// Cell by cell along x, y and z.
     cells: Vec<Depths>,
 }
 
 impl Lights {
-    pub(super) fn new(body: &impl Body) -> Lights {
-        let middle = |i: usize| ((i as f32 + 0.5) / SIDE as f32 * 2.0 - 1.0) * REACH;
+    /// Of a cloud that reaches so far from the middle, by its extinction.
+    pub(super) fn new(reach: f32, extinction: impl Fn([f32; 3]) -> f32 + Sync) -> Lights {
+        let middle = |i: usize| ((i as f32 + 0.5) / SIDE as f32 * 2.0 - 1.0) * reach;
         let index = |[x, y, z]: [usize; 3]| (z * SIDE + y) * SIDE + x;
         let mut extinctions = vec![0.0; SIDE * SIDE * SIDE];
         let sheets = extinctions.par_chunks_mut(SIDE * SIDE).enumerate();
         sheets.for_each(|(z, sheet)| {
-            for (i, extinction) in sheet.iter_mut().enumerate() {
-                *extinction = body.shadow([middle(i % SIDE), middle(i / SIDE), middle(z)]);
+            for (i, cell) in sheet.iter_mut().enumerate() {
+                *cell = extinction([middle(i % SIDE), middle(i / SIDE), middle(z)]);
             }
         });
-        let step = 2.0 * REACH / SIDE as f32;
+        let step = 2.0 * reach / SIDE as f32;
         let mut cells = vec![[0.0; 6]; extinctions.len()];
         // The first of each pair comes from the end of the axis.
         for (direction, (axis, is_first)) in
@@ -54,13 +55,13 @@ impl Lights {
                 }
             }
         }
-        Lights { cells }
+        Lights { reach, cells }
     }
 
     /// Optical depths on the way to a place.
     pub(super) fn depths(&self, place: [f32; 3]) -> Depths {
         let there = place.map(|c| {
-            let cell = (0.5 + 0.5 * c / REACH) * SIDE as f32 - 0.5;
+            let cell = (0.5 + 0.5 * c / self.reach) * SIDE as f32 - 0.5;
             cell.clamp(0.0, (SIDE - 1) as f32)
         });
         let from = there.map(|c| (c as usize).min(SIDE - 2));
@@ -83,39 +84,14 @@ impl Lights {
 
 #[cfg(test)]
 mod tests {
-    use super::super::march::Medium;
     use super::*;
 
-    /// Fills the half space beyond one plane.
-    struct Half {
-        axis: usize,
-        from: f32,
-    }
-
-    impl Body for Half {
-        const STEP: f32 = 0.1;
-
-        fn span(&self, _: [f32; 2]) -> [f32; 2] {
-            [1.0, -1.0]
-        }
-
-        fn medium(&self, _: [f32; 3]) -> Medium {
-            Medium::Clear
-        }
-
-        fn shadow(&self, place: [f32; 3]) -> f32 {
-            if place[self.axis] > self.from {
-                3.0
-            } else {
-                0.0
-            }
-        }
-    }
+    const REACH: f32 = 0.84;
 
     #[test]
     fn depth_grows_by_the_extinction_along_each_axis() {
         for axis in 0..3 {
-            let lights = Lights::new(&Half { axis, from: 0.0 });
+            let lights = Lights::new(REACH, |place| if place[axis] > 0.0 { 3.0 } else { 0.0 });
             let mut place = [0.1, -0.2, 0.3];
             place[axis] = 0.5 * REACH;
             let found = lights.depths(place);

@@ -58,7 +58,7 @@ const DIMMING: f32 = 0.15;
 /// A picture of `side` texels, times opacity but for the opacity: light from the front, opacity, and half of what light from the right
 /// is more than that from the left, and from the top than from the bottom.
 pub(super) fn picture(body: &impl Body, side: u32) -> Image {
-    let lights = Lights::new(body);
+    let lights = Lights::new(REACH, |place| body.shadow(place));
     let mut image = Image::new(side, side, 4);
     let unit = |i: usize| (i as f32 + 0.5) / side as f32 * 2.0 - 1.0;
     let rows = image.texels.par_chunks_mut(4 * side as usize);
@@ -145,7 +145,7 @@ mod tests {
                 extinction,
                 shadow: 0.0,
             };
-            let lights = Lights::new(&block);
+            let lights = Lights::new(REACH, |place| block.shadow(place));
             let ([light, ..], alpha) = ray(&block, &lights, [-0.5, 0.0]);
             assert!((alpha - 1.0 + libm::expf(-extinction)).abs() < 1e-5);
             // One half is not dimmed, of the other a quarter is left.
@@ -160,7 +160,7 @@ mod tests {
             extinction: 1e4,
             shadow: 5.0,
         };
-        let lights = Lights::new(&block);
+        let lights = Lights::new(REACH, |place| block.shadow(place));
         let (light, alpha) = ray(&block, &lights, [-0.5, 0.0]);
         assert!(alpha > 1.0 - OPAQUE);
         // The ray is seen where it enters, a quarter of the way from the front to the back.

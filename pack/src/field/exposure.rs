@@ -12,21 +12,8 @@
 //! Depths are halvings of light most of which is scattered on forwards, far fewer than Beer's law has: a puff counts three through its middle.
 //! Time goes with the sprites: nine rays of at most four kilometres each, 25 microseconds a sprite.
 
-use super::{Cloud, Field, Sprite};
+use super::{Cloud, Exposure, Field, MOST_DEPTH, MOST_HALVINGS_M, Sprite};
 use crate::mapping::{SheetCell, SheetKind};
-
-/// What light gets to a sprite, as it is stored.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Exposure {
-    /// Halvings of sunlight on its way from just above the horizon in the east, south, west and north, in 255ths of [`MOST_DEPTH`].
-    pub sides: [u8; 4],
-    /// The same from above.
-    pub above: u8,
-    /// Share of the sky's light that gets there, in 255ths.
-    pub sky: u8,
-    /// Halvings a metre about it, in 255ths of [`MOST_HALVINGS_M`].
-    pub halvings: u8,
-}
 
 /// Depth through the middle of a sprite, in halvings.
 const THICKNESS: [f32; 3] = [0.5, 0.6, 3.0];
@@ -59,12 +46,6 @@ const SKY: [f32; 3] = [0.15, 0.125, 0.0875];
 
 /// Share of a depth that skylight feels: it comes round what is in the way.
 const SKY_FEELS: f32 = 0.5;
-
-/// The largest depth that is stored, in halvings.
-pub const MOST_DEPTH: f32 = 16.0;
-
-/// The most halvings a metre that are stored.
-pub const MOST_HALVINGS_M: f32 = 0.064;
 
 impl Exposure {
     /// East, south, west, north, above, sky, halvings.
