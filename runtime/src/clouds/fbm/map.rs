@@ -16,7 +16,7 @@
 //! - The map keeps the blend and not the blended colour, which is the same by linearity and keeps 8 bits for it.
 //!
 //! # Practice
-//! 512x512 texels, one bilinear read an octave, of four loads, so that slow octaves go evenly. Channels: R the shade, G the sum, A the cover.
+//! 512x512 texels, one bilinear read an octave. Channels: R the shade, G the sum, A the cover.
 
 use glam::Vec2;
 use welkin_pack::Texture;
