@@ -210,11 +210,18 @@ pub fn overcast_weight(params: &SkyParams, viewer_m: f32, [base_m, top_m]: [f32;
 
 /// Mean radiance of a sky that the field's clouds cover.
 pub fn overcast(sprites: &SpriteUniforms) -> Vec3 {
-    let middle = 0.5 * (sprites.least + sprites.most);
-    OVERCAST_LEVEL * sprites.ambient * (1.0 - 0.5 * sprites.dark_base)
-        + UNDERSIDE * middle * sprites.light
+    let sunlit = if sprites.thickness > 0.0 {
+        // The higher the sun, the shorter the way of its light down to the bases.
+        let sine = sprites.light_direction.y;
+        THROUGH[0] + THROUGH[1] * sine * sine
+    } else {
+        UNDERSIDE * 0.5 * (sprites.least + sprites.most)
+    };
+    OVERCAST_LEVEL * sprites.ambient * (1.0 - 0.5 * sprites.dark_base) + sunlit * sprites.light
 }
 
+/// Share of sunlight that comes through a sheet from the horizon, and what a sun overhead adds to it: about what the field of the default pack shows.
+const THROUGH: [f32; 2] = [0.15, 0.2];
 /// Colour level of the base of a sheet of clouds.
 const OVERCAST_LEVEL: f32 = 0.5;
 /// Share of directional light on undersides, as they are seen from the ground.
