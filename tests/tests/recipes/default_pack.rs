@@ -23,7 +23,7 @@ const MOST_BYTES_LAYERS: usize = 3 * 256 * 256 * 4 * 4 / 3;
 const MOST_BYTES_SKY: usize = 160 * 16 * 32 * 4 * 2 / 2;
 
 /// What the sheet of sprites may take: half of the bytes of its levels, since most of a cell is transparent.
-const MOST_BYTES_SPRITES: usize = 512 * 512 * 2 * 4 / 3 / 2;
+const MOST_BYTES_SPRITES: usize = 512 * 512 * 4 * 4 / 3 / 2;
 
 fn assert_sound(pack: &Pack) {
     let place = tempfile::tempdir().unwrap();
