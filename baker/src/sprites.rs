@@ -8,7 +8,7 @@
 //! # Changes versus the paper
 //! - The pictures are not painted: each is a small cloud of noise, and a ray through every texel tells its opacity and the
 //!   light that it scatters (`march.rs`).
-//! - No colour: the bluish grey of fog is a constant, [`SheetKind::tint`]. In its place light from six sides (`lights.rs`): from the front; from the
+//! - No colour: the bluish grey of fog is a constant, [`SheetKind::tint`]. In its place light by side (`lights.rs`): from the front; from the
 //!   right and left, and from the top and bottom, as what they are more or less than the mean of both; from the back it follows opacity.
 //! - A recipe may name pictures instead (`pictures.rs`).
 //!

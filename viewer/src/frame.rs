@@ -73,11 +73,6 @@ pub(crate) fn linear(byte: u8) -> f32 {
     }
 }
 
-/// Luminance of linear light: ITU-R BT.709-6, item 3.2.
-pub(crate) fn luminance([r, g, b]: [f32; 3]) -> f32 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
-}
-
 /// Bytes from one row to the next in a buffer that a texture with rows of `row` bytes is copied to.
 pub(crate) const fn padded(row: u32) -> u32 {
     row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)

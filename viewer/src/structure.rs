@@ -6,7 +6,10 @@
 //! haze and sunset, all round and overhead) have 0.12 to 0.25 times as much in the two finest as in the two coarsest, whatever the exposure; white
 //! noise has some thirty times as much.
 
-use crate::frame::{Frame, Pixels, linear, luminance};
+use glam::Vec3;
+use welkin_runtime::internals::geometry::math::luminance;
+
+use crate::frame::{Frame, Pixels, linear};
 
 /// Size of the pictures that are measured.
 pub const SIZE: [u32; 2] = [1280, 720];
@@ -128,7 +131,7 @@ fn planes(frame: &Frame) -> (Plane, Plane) {
             .collect(),
     };
     (
-        plane(&luminance),
+        plane(&|light| luminance(Vec3::from(light))),
         plane(&|[r, g, b]| 1.0 - r.min(g).min(b) / (r.max(g).max(b) + 1e-6)),
     )
 }

@@ -1,25 +1,28 @@
-//! Light from six sides through a small cloud.
+//! Light from five sides through a small cloud.
 //!
 //! # Theory
 //! Pictures of one cloud lit from the right, left, top, bottom, front and back can be mixed to one that is lit from anywhere. Here light is dimmed
-//! along the six directions through a grid of the cloud's extinction.
+//! along all of these directions but the last through a grid of the cloud's extinction: what shines from behind follows opacity.
 //!
 //! # Practice
-//! The grid is asked [`SIDE`]^3 times for its extinction, and summed up six times.
+//! The grid is asked [`SIDE`]^3 times for its extinction, and summed up five times.
 
 use rayon::prelude::*;
 
 /// Cells a side of the grid.
 const SIDE: usize = 40;
 
-/// Optical depths on the way from each side: x from the right and left, y from the top and bottom, z from the front and back.
-type Depths = [f32; 6];
+/// A number for the right, left, top, bottom and front.
+pub(super) type BySide = [f32; 5];
+
+/// Of each of them, its axis and whether it comes from the axis's end.
+const DIRECTIONS: [(usize, bool); 5] = [(0, true), (0, false), (1, true), (1, false), (2, true)];
 
 pub(super) struct Lights {
     /// Half of the side of the grid.
     reach: f32,
     /// Cell by cell along x, y and z.
-    cells: Vec<Depths>,
+    cells: Vec<BySide>,
 }
 
 impl Lights {
@@ -35,15 +38,12 @@ impl Lights {
             }
         });
         let step = 2.0 * reach / SIDE as f32;
-        let mut cells = vec![[0.0; 6]; extinctions.len()];
-        // The first of each pair comes from the end of the axis.
-        for (direction, (axis, is_first)) in
-            (0..3).flat_map(|a| [(a, true), (a, false)]).enumerate()
-        {
+        let mut cells = vec![BySide::default(); extinctions.len()];
+        for (direction, (axis, from_end)) in DIRECTIONS.into_iter().enumerate() {
             for (a, b) in (0..SIDE).flat_map(|a| (0..SIDE).map(move |b| (a, b))) {
                 let mut depth = 0.0;
                 for i in 0..SIDE {
-                    let along = if is_first { SIDE - 1 - i } else { i };
+                    let along = if from_end { SIDE - 1 - i } else { i };
                     let cell = match axis {
                         0 => [along, a, b],
                         1 => [a, along, b],
@@ -59,14 +59,14 @@ impl Lights {
     }
 
     /// Optical depths on the way to a place.
-    pub(super) fn depths(&self, place: [f32; 3]) -> Depths {
+    pub(super) fn depths(&self, place: [f32; 3]) -> BySide {
         let there = place.map(|c| {
             let cell = (0.5 + 0.5 * c / self.reach) * SIDE as f32 - 0.5;
             cell.clamp(0.0, (SIDE - 1) as f32)
         });
         let from = there.map(|c| (c as usize).min(SIDE - 2));
         let part: [f32; 3] = std::array::from_fn(|a| there[a] - from[a] as f32);
-        let mut depths = [0.0; 6];
+        let mut depths = BySide::default();
         for corner in 0..8_usize {
             let bits = [corner & 1, corner >> 1 & 1, corner >> 2];
             let weights: [f32; 3] =
@@ -97,15 +97,20 @@ mod tests {
             let found = lights.depths(place);
             // Half of the filled half is before it, whichever side the light comes from; across, all is filled.
             let before = 3.0 * 0.5 * REACH;
-            for (direction, depth) in found.iter().enumerate() {
-                if direction / 2 == axis {
-                    assert!((depth - before).abs() < 0.05, "{axis} {found:?}");
-                }
+            let along = || (0..5).filter(|direction| DIRECTIONS[*direction].0 == axis);
+            for direction in along() {
+                assert!((found[direction] - before).abs() < 0.05, "{axis} {found:?}");
             }
             place[axis] = -0.5 * REACH;
             let found = lights.depths(place);
-            assert!((found[2 * axis] - 2.0 * before).abs() < 0.05, "{found:?}");
-            assert!(found[2 * axis + 1].abs() < 0.05, "{found:?}");
+            for direction in along() {
+                let all = if DIRECTIONS[direction].1 {
+                    2.0 * before
+                } else {
+                    0.0
+                };
+                assert!((found[direction] - all).abs() < 0.05, "{found:?}");
+            }
         }
     }
 }

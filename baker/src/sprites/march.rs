@@ -2,14 +2,14 @@
 //!
 //! # Theory
 //! A ray goes from the viewer through the cloud. Of a step of the optical depth `t` the share `1 - exp(-t)` is seen (Beer
-//! and Lambert), dimmed by the steps before it. It shines with the light of one of six directions, dimmed on
+//! and Lambert), dimmed by the steps before it. It shines with the light of one of five directions, dimmed on
 //! its way through the cloud, and with light from everywhere, dimmed by how deep it lies. J. T. Kajiya, B. P. Von Herzen,
 //! "Ray Tracing Volume Densities", SIGGRAPH 1984.
 
 use rayon::prelude::*;
 use welkin_pack::Image;
 
-use super::lights::Lights;
+use super::lights::{BySide, Lights};
 
 /// Nothing of a sprite lies farther from the middle of its cell, whose half side is 1.
 pub(super) const REACH: f32 = 0.84;
@@ -64,7 +64,7 @@ pub(super) fn picture(body: &impl Body, side: u32) -> Image {
     let rows = image.texels.par_chunks_mut(4 * side as usize);
     rows.enumerate().for_each(|(y, row)| {
         for (x, texel) in row.chunks_exact_mut(4).enumerate() {
-            let ([right, left, top, bottom, front, _], alpha) =
+            let ([right, left, top, bottom, front], alpha) =
                 ray(body, &lights, [unit(x), -unit(y)]);
             texel.copy_from_slice(&[front, alpha, 0.5 * (right - left), 0.5 * (top - bottom)]);
         }
@@ -72,10 +72,10 @@ pub(super) fn picture(body: &impl Body, side: u32) -> Image {
     image
 }
 
-/// Light of each of the six directions that comes out of the cloud towards +z, and opacity.
-fn ray<B: Body>(body: &B, lights: &Lights, [x, y]: [f32; 2]) -> ([f32; 6], f32) {
+/// Light of each of the directions that comes out of the cloud towards +z, and opacity.
+fn ray<B: Body>(body: &B, lights: &Lights, [x, y]: [f32; 2]) -> (BySide, f32) {
     let step = B::STEP;
-    let (mut clear, mut light, mut before) = (1.0, [0.0; 6], None);
+    let (mut clear, mut light, mut before) = (1.0, BySide::default(), None);
     let [mut z, back] = body.span([x, y]);
     while z > back && clear > OPAQUE {
         let place = [x, y, z];
@@ -102,7 +102,7 @@ fn ray<B: Body>(body: &B, lights: &Lights, [x, y]: [f32; 2]) -> ([f32; 6], f32) 
     (light, 1.0 - clear)
 }
 
-fn brightness(depths: [f32; 6], openness: f32) -> [f32; 6] {
+fn brightness(depths: BySide, openness: f32) -> BySide {
     depths.map(|depth| DIRECT * libm::expf(-DIMMING * depth) + (1.0 - DIRECT) * openness)
 }
 
@@ -150,7 +150,7 @@ mod tests {
             assert!((alpha - 1.0 + libm::expf(-extinction)).abs() < 1e-5);
             // One half is not dimmed, of the other a quarter is left.
             assert!((light / alpha - 0.625).abs() < 1e-5);
-            assert_eq!(ray(&block, &lights, [0.5, 0.0]), ([0.0; 6], 0.0));
+            assert_eq!(ray(&block, &lights, [0.5, 0.0]), ([0.0; 5], 0.0));
         }
     }
 
@@ -164,7 +164,7 @@ mod tests {
         let (light, alpha) = ray(&block, &lights, [-0.5, 0.0]);
         assert!(alpha > 1.0 - OPAQUE);
         // The ray is seen where it enters, a quarter of the way from the front to the back.
-        for (light, way) in light.iter().zip([1.34, 0.34, 0.84, 0.84, 0.34, 1.34]) {
+        for (light, way) in light.iter().zip([1.34, 0.34, 0.84, 0.84, 0.34]) {
             let expected = 0.5 * libm::expf(-DIMMING * 5.0 * way) + 0.5 * 0.25;
             assert!((light - expected).abs() < 5e-3, "{light} {expected}");
         }

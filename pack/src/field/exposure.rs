@@ -5,7 +5,7 @@
 //! cloud as what could come next. M. J. Harris, A. Lastra, "Real-Time Cloud Rendering", Eurographics 2001, add up the extinction between each particle
 //! and the sun; here it is added up once, towards five directions, so that the sun may go where it likes.
 //!
-//! Sprites become a grid of extinction: each an ellipsoid as wide and as high as its picture is dense. Rays from the middle of each sprite add up what
+//! Sprites become a grid of extinction: each an ellipsoid, somewhat larger than what its picture shows. Rays from the middle of each sprite add up what
 //! they meet. A sprite sees its own cloud, and those of lower rank, which are there whenever it is.
 //!
 //! # Practice
@@ -15,13 +15,12 @@
 use super::{Cloud, Exposure, Field, MOST_DEPTH, MOST_HALVINGS_M, Sprite};
 use crate::mapping::{SheetCell, SheetKind};
 
-/// Depth through the middle of a sprite, in halvings.
+/// Depth through the middle of fog, of a wisp and of a puff, in halvings.
 const THICKNESS: [f32; 3] = [0.5, 0.6, 3.0];
 
-/// Half axes of the ellipsoid as shares of the sprite's width and height: more than a picture shows, since light is scattered to and fro between
+/// Half axes of the ellipsoid as a share of the sprite's width and height: more than a picture shows, since light is scattered to and fro between
 /// neighbours, which have about as much of it.
-const WIDE: f32 = 0.8;
-const HIGH: f32 = 0.8;
+const LARGE: f32 = 0.8;
 
 /// Side of a cell of the grid, in metres, in fields of up to three sections; larger fields have larger cells.
 const CELL_M: f32 = 80.0;
@@ -132,10 +131,10 @@ impl Grid {
         };
         let [width, height] = sprite.size_m;
         // A grid cannot hold what is smaller than its cells.
-        let wide = (WIDE * width).max(0.75 * self.cell_m);
+        let wide = (LARGE * width).max(0.75 * self.cell_m);
         let high = match cloud.kind.is_flat() {
             true => 0.75 * self.cell_m,
-            false => (HIGH * height).max(0.75 * self.cell_m),
+            false => (LARGE * height).max(0.75 * self.cell_m),
         };
         let radii = [wide, high, wide].map(|r| r.min(MOST_REACH * self.cell_m));
         let middle = self.place(sprite.centre_m);
@@ -161,7 +160,7 @@ impl Grid {
             }
         }
         // Density falls off with the square of the radius: over its disc a ball has 2/5 of the depth through its middle.
-        let area = std::f32::consts::PI * (WIDE * width) * (WIDE * width);
+        let area = std::f32::consts::PI * (LARGE * width) * (LARGE * width);
         let volume = self.cell_m * self.cell_m * self.cell_m;
         let opacity = 0.5 * (cloud.levels[0].rgba[3] + cloud.levels[4].rgba[3]);
         let amount = 0.4 * thickness * opacity * area / volume;

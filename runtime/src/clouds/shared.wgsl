@@ -12,13 +12,18 @@ fn cloud_facing(direction: vec3f, opacity: f32) -> f32 {
     return mix(1.0, CLOUD_ABEAM - CLOUD_SIDED * cosine + rim, uniforms.clouds.low_sun);
 }
 
+// The phase function against all sides alike, by the cosine to the sun; limited about it.
+fn cloud_phase(cosine: f32) -> f32 {
+    let root = inverseSqrt(CLOUD_FORWARD.y - CLOUD_FORWARD.z * cosine);
+    return min(CLOUD_FORWARD.x * root * root * root + CLOUD_BACKWARD.x - CLOUD_BACKWARD.y * cosine, CLOUD_BRIGHTEST);
+}
+
 // Shares of sunlight and of skylight that a cloud sends along a direction: of what came through `depth` halvings from the sun, to a place
 // under so much cloud. What was scattered once follows the phase function, and only thin parts show it; what was scattered many times
 // comes from all sides, and is weakened less.
 fn cloud_scattered(direction: vec3f, depth: f32, height: f32) -> vec2f {
     let cosine = dot(direction, uniforms.sky.sun_direction);
-    let root = inverseSqrt(CLOUD_FORWARD.y - CLOUD_FORWARD.z * cosine);
-    let phase = min(CLOUD_FORWARD.x * root * root * root + CLOUD_BACKWARD.x - CLOUD_BACKWARD.y * cosine, CLOUD_BRIGHTEST);
+    let phase = cloud_phase(cosine);
     let lacking = 0.5 * CLOUD_POWDER.x * (1.0 - cosine) * clamp(1.0 - CLOUD_POWDER.y * height, 0.0, 1.0);
     // A low sun lights sides: one sees the lit ones away from it.
     let sided = 1.0 + uniforms.clouds.low_sun * ((CLOUD_ABEAM - 1.0) - CLOUD_SIDED * cosine);

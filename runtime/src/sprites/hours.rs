@@ -30,20 +30,27 @@ pub struct SpriteLight {
 /// Factors on the light of the sky and of the sun that make the ambient one, and on the sun's for the direct one.
 const FROM_SKY: f32 = 3.0;
 const FROM_SUN: f32 = 0.45;
-/// How much less of it is scattered all through a cloud by a sun on the horizon, which lights one side: chosen by eye.
-const ONE_SIDED: f32 = 0.75;
 const DIRECT: f32 = 0.67;
 /// Share of the direct light on the far side of a group: the table's by day.
 const LEAST: f32 = 0.05;
 
-/// The light that the clouds of every method have.
+/// The light that the clouds of every method have, in the article's shading.
 pub fn of_sky(clouds: &CloudUniforms) -> SpriteLight {
-    let through = FROM_SUN * (1.0 - ONE_SIDED * clouds.low_sun);
     SpriteLight {
-        ambient: FROM_SKY * clouds.ambient + through * clouds.sunlight,
+        ambient: FROM_SKY * clouds.ambient + FROM_SUN * clouds.sunlight,
         direct: DIRECT * clouds.sunlight,
         least: LEAST,
         most: 1.0,
+    }
+}
+
+/// The same where it is scattered: as it is, with no part for a group.
+pub fn of_scattered(clouds: &CloudUniforms) -> SpriteLight {
+    SpriteLight {
+        ambient: clouds.ambient,
+        direct: clouds.sunlight,
+        least: 0.0,
+        most: 0.0,
     }
 }
 

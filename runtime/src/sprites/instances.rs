@@ -35,9 +35,9 @@ pub struct Instance {
     pub names: [u8; 4],
     /// xyz: the way it faces for ever, w: 1 if it does, in 127ths.
     pub lock: [i8; 4],
-    /// Halvings of sunlight from the east, south, west and north over [`MOST_DEPTH`], in 255ths.
+    /// Halvings of sunlight from the east, south, west and north over [`MOST_DEPTH`](welkin_pack::field::MOST_DEPTH), in 255ths.
     pub sides: [u8; 4],
-    /// The same from above; the sky's share; halvings a metre over [`MOST_HALVINGS_M`]; nothing.
+    /// The same from above; the sky's share; halvings a metre over [`MOST_HALVINGS_M`](welkin_pack::field::MOST_HALVINGS_M); nothing.
     pub above: [u8; 4],
 }
 

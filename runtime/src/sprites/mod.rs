@@ -140,17 +140,13 @@ pub fn uniforms(
     let own = &params.sprites;
     // The table of hours is the article's, and made for its shading.
     let is_scattered = params.shading == Shading::Scattered && !own.hours;
-    let lit = match own.hours {
-        true => {
-            let factor = moonlit(light, params.moon) * shared::underside_light(params);
-            hours::of_hour(&hours::at(hours, params.time), factor)
-        }
-        false if is_scattered => hours::SpriteLight {
-            direct: clouds.sunlight,
-            ambient: clouds.ambient,
-            ..hours::of_sky(clouds)
-        },
-        false => hours::of_sky(clouds),
+    let lit = if own.hours {
+        let factor = moonlit(light, params.moon) * shared::underside_light(params);
+        hours::of_hour(&hours::at(hours, params.time), factor)
+    } else if is_scattered {
+        hours::of_scattered(clouds)
+    } else {
+        hours::of_sky(clouds)
     };
     let mix = |[from, to]: [f32; 2]| from + (to - from) * params.density;
     let billboards = own.billboards_beyond_m;

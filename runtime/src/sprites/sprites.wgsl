@@ -149,9 +149,7 @@ fn sprite_scattered(instance: SpriteInstance, axes: mat2x3f, facing: vec3f, offs
     // What is seen is the near side of a body.
     let depth = own.thickness * max(sprite_depth(instance) - SPRITE_BULGE * halvings * dot(facing, sun), 0.0);
     let more = own.thickness * halvings;
-    let cosine = dot(direction, sun);
-    let root = inverseSqrt(CLOUD_FORWARD.y - CLOUD_FORWARD.z * cosine);
-    let phase = min(CLOUD_FORWARD.x * root * root * root + CLOUD_BACKWARD.x - CLOUD_BACKWARD.y * cosine, CLOUD_BRIGHTEST);
+    let phase = cloud_phase(dot(direction, sun));
     let single = CLOUD_SINGLE.x + SPRITE_PHASE * phase;
     let place = vec2f(dot(offset, sun), offset.y) / radius * 0.5 + 0.5;
     let sunlit = max(mix(sprite_sunlit(depth + more, single), sprite_sunlit(max(depth - more, 0.0), single), place.x), 0.0);
@@ -248,15 +246,18 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     let places = vec2f(length(instance.from_cloud + offset), length(instance.from_cloud)) / instance.cloud_radius;
     let formed = sprite_formed(amount, places.x, places.y);
     opacity *= formed * mix(instance.low.a, instance.high.a, up);
-    var shade = sprite_article(instance, offset, up);
-    let is_scattered = own.thickness > 0.0;
-    if is_scattered {
-        shade = sprite_scattered(instance, axes, facing, offset, direction);
-    }
     let clearness = sprite_clearness(place, away) * rim;
     let tint = clearness * mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
+    var shade: SpriteShade;
+    var sky_tint = tint;
+    if own.thickness > 0.0 {
+        shade = sprite_scattered(instance, axes, facing, offset, direction);
+    } else {
+        shade = sprite_article(instance, offset, up);
+        sky_tint = vec3f(clearness);
+    }
     let sunlit = shade.sunlit * tint;
-    let skylit = shade.skylit * select(vec3f(clearness), tint, is_scattered);
+    let skylit = shade.skylit * sky_tint;
     let seen = sunlit + skylit + sprite_flash(place) * clearness + sky_radiance(direction) * (1.0 - clearness);
 
     let clip = vec4f(

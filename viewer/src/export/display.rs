@@ -6,10 +6,11 @@ use glam::Vec3;
 use half::f16;
 use rayon::prelude::*;
 use welkin_runtime::SkyParams;
+use welkin_runtime::internals::geometry::math::luminance;
 use welkin_runtime::internals::tonemap;
 use welkin_runtime::params::Tonemap;
 
-use crate::frame::{Frame, Pixels, luminance};
+use crate::frame::{Frame, Pixels};
 
 /// A frame of radiance, tonemapped and encoded as sRGB as these parameters say. Other frames stay what they are.
 pub fn displayed(frame: Frame, params: &SkyParams) -> Frame {
@@ -38,7 +39,7 @@ pub fn encoded_luminance(frame: &Frame, params: &SkyParams) -> Vec<f32> {
     };
     let factor = params.clamped().exposure_factor();
     let of = |pixel: &[f16; 4]| {
-        let light = luminance(on_display(*pixel, factor, params.tonemap).to_array());
+        let light = luminance(on_display(*pixel, factor, params.tonemap));
         tonemap::srgb_encoded(Vec3::splat(light)).x
     };
     pixels.par_iter().map(of).collect()

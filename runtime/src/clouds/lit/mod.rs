@@ -146,7 +146,7 @@ uniforms! {
         light_position: Vec2,
         /// How overcast the sky is, 0..1.
         overcast: f32,
-        /// How much more of the sky than by their bases the lowest clouds of an iteration cover by their sides: see [`base_share`].
+        /// How much more of the sky than by their bases the lowest clouds of an iteration cover by their sides: see `base_share`.
         sided: f32,
         /// Light of the sky on clouds.
         ambient: Vec3,
