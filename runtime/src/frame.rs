@@ -30,6 +30,8 @@ use crate::weather::lightning::LightningUniforms;
 #[cfg(feature = "weather")]
 use crate::weather::rain::RainUniforms;
 #[cfg(feature = "weather")]
+use crate::weather::rainbow::RainbowUniforms;
+#[cfg(feature = "weather")]
 use crate::weather::rays::RayUniforms;
 
 /// The uniforms and what else the passes share.
@@ -87,6 +89,9 @@ uniforms! {
         /// Rain.
         #[cfg(feature = "weather")]
         rain: RainUniforms,
+        /// The rainbow.
+        #[cfg(feature = "weather")]
+        rainbow: RainbowUniforms,
         /// The lens flare.
         flares: FlareUniforms,
         /// The last step.

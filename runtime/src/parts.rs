@@ -12,7 +12,7 @@ use crate::geometry::uniforms::Struct;
 use crate::geometry::{camera, dome};
 use crate::params::{Method, Shading, SkyModel};
 #[cfg(feature = "weather")]
-use crate::weather::{self, lightning, rain, rays};
+use crate::weather::{self, lightning, rain, rainbow, rays};
 use crate::{frame, tonemap};
 
 /// What every dome needs.
@@ -36,7 +36,13 @@ const COMMON: [Part; 15] = [
 
 /// What a dome with weather needs.
 #[cfg(feature = "weather")]
-const WEATHER: &[Part] = &[lightning::PART, rays::PART, rain::PART, weather::PART];
+const WEATHER: &[Part] = &[
+    lightning::PART,
+    rays::PART,
+    rain::PART,
+    rainbow::PART,
+    weather::PART,
+];
 #[cfg(not(feature = "weather"))]
 const WEATHER: &[Part] = &[];
 

@@ -107,7 +107,8 @@ pub fn seen(inputs: &Inputs, direction: Vec3, place: impl Fn(usize) -> (Vec2, f3
             _ => base,
         };
         let [left, opacity, height] = cloud;
-        let bump = grain.across - GRAIN_DEEPER * grain.denser;
+        let deeper = GRAIN_DEEPER[0] + GRAIN_DEEPER[1] * inputs.uniforms.lit.overcast;
+        let bump = grain.across - deeper * grain.denser;
         let depth = -libm::log2f(left.max(DARKEST)) / MULTIPLE[1]
             - GRAIN_DEPTH * layer.grain * bump * height;
         let rough = roughened(layer, opacity, grain);

@@ -3,8 +3,8 @@
 use glam::Vec2;
 use welkin_pack::{Image, LayerKind, Pack, Role};
 use welkin_runtime::internals::clouds::lit::map::{
-    APART, BENDS, EVENED_RELIEF, LEAST_UP, OWN, RELIEF, RELIEF_FULL, RISES, ROLL_LEVELS, ROLLS,
-    SHARES, STEPS, WEIGHTS,
+    APART, BENDS, EVENED_RELIEF, FIBRE_LEVEL, LEAST_UP, OWN, RELIEF, RELIEF_FULL, RISES,
+    ROLL_LEVELS, ROLLS, SHARES, STEPS, WEIGHTS,
 };
 use welkin_runtime::internals::clouds::lit::{LitLayerUniforms, LitUniforms};
 use welkin_runtime::internals::clouds::shared::MULTIPLE;
@@ -165,7 +165,7 @@ impl Place {
             [LayerKind::Cumulus, LayerKind::Cirrus].map(|kind| &kinds[kind as usize]);
         let kind = layer.kind as usize;
         let here = match kind == LayerKind::Cirrus as usize {
-            true => fibres.sample((2.0 * bent(uv)).to_array(), level + 1.0),
+            true => fibres.sample((2.0 * bent(uv)).to_array(), level + FIBRE_LEVEL),
             false => kinds[kind].sample(uv.to_array(), level),
         };
         let away = (uv + layer.second_offset).to_array();

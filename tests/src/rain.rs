@@ -1,4 +1,4 @@
-//! Twin of rain.wgsl.
+//! Twin of rain.wgsl and rainbow.wgsl.
 
 use std::f32::consts::TAU;
 
@@ -9,6 +9,10 @@ use welkin_runtime::internals::weather::rain::{
     COLUMNS, DROPS_A_COLUMN, FADE, HAZE_ABOVE, HAZE_FALL, HEIGHT_M, SLOTS,
 };
 
+use welkin_runtime::internals::weather::rainbow::{
+    ENDS, GROUND, RainbowColour, RainbowUniforms, TEXELS,
+};
+
 use crate::camera;
 
 /// Colour and opacity of the haze along a ray.
@@ -16,6 +20,28 @@ pub fn haze(rain: &RainUniforms, ray: Vec3) -> (Vec3, f32) {
     let far = libm::exp2f(-HAZE_FALL * ray.normalize().y.abs());
     let opacity = rain.haze_opacity * (HAZE_ABOVE + (1.0 - HAZE_ABOVE) * far);
     (rain.haze, opacity)
+}
+
+/// Light of the bow along a unit direction.
+pub fn bow(rainbow: &RainbowUniforms, direction: Vec3) -> Vec3 {
+    let cosine = direction.dot(rainbow.antisolar);
+    let last = (TEXELS - 1) as f32;
+    let at = |bow: &[RainbowColour; TEXELS], place: f32| {
+        let place = place.clamp(0.0, last);
+        let next = (place as usize + 1).min(TEXELS - 1);
+        bow[place as usize]
+            .colour
+            .lerp(bow[next].colour, place.fract())
+    };
+    let colour = if cosine > rainbow.band {
+        let place = (rainbow.primary_from - cosine) * rainbow.primary_per_cosine;
+        at(&rainbow.primary, place)
+    } else {
+        let place = (rainbow.secondary_from - cosine) * rainbow.secondary_per_cosine;
+        let outer = rainbow.secondary_from - last / rainbow.secondary_per_cosine;
+        at(&rainbow.secondary, place) * (1.0 - ENDS * (outer - cosine)).clamp(0.0, 1.0)
+    };
+    rainbow.light * colour * (1.0 + direction.y / GROUND).clamp(0.0, 1.0)
 }
 
 /// What the streaks cover of each pixel, row by row from the top, if each is turned so far about the axis.

@@ -295,6 +295,21 @@ impl Frame<'_> {
         })
     }
 
+    /// What the rain's haze and its bow make of a picture.
+    pub fn rained_on(&self, picture: &[Vec3]) -> Vec<Vec3> {
+        let mut behind = picture.iter();
+        self.pixels(|pixel| {
+            let behind = behind.next().expect("every pixel is there");
+            self.in_rain(*behind, pixel)
+        })
+    }
+
+    fn in_rain(&self, behind: Vec3, pixel: Vec2) -> Vec3 {
+        let ray = camera::ray_of(&self.uniforms.camera, pixel);
+        let (colour, opacity) = rain::haze(&self.uniforms.rain, ray);
+        behind.lerp(colour, opacity) + rain::bow(&self.uniforms.rainbow, ray.normalize())
+    }
+
     fn pixels(&self, colour: impl FnMut(Vec2) -> Vec3) -> Vec<Vec3> {
         let camera = &self.uniforms.camera;
         let (width, height) = (camera.width_px as u32, camera.height_px as u32);
@@ -320,12 +335,10 @@ impl Frame<'_> {
         }
     }
 
-    /// Radiance of one pixel, behind the haze of rain if there is any.
+    /// Radiance of one pixel, behind the haze of rain if there is any, with its bow.
     pub fn pixel(&self, pixel: Vec2) -> Vec3 {
         let sky = self.over(self.pixel_behind(pixel), self.sun(pixel), pixel);
-        let ray = camera::ray_of(&self.uniforms.camera, pixel);
-        let (colour, opacity) = rain::haze(&self.uniforms.rain, ray);
-        sky.lerp(colour, opacity)
+        self.in_rain(sky, pixel)
     }
 
     /// Radiance of one pixel behind the clouds, without the sun.

@@ -1,9 +1,10 @@
 //! Twin of sprites.wgsl.
 
-use glam::{Vec2, Vec3, Vec4};
-use welkin_pack::field::{MOST_DEPTH, MOST_HALVINGS_M};
+use glam::{Vec2, Vec3, Vec3Swizzles, Vec4};
+use welkin_pack::field::MOST_DEPTH;
 use welkin_runtime::internals::clouds::shared::{MULTIPLE, SINGLE};
 use welkin_runtime::internals::frame::Uniforms;
+use welkin_runtime::internals::sprites::exposures::Exposures;
 use welkin_runtime::internals::sprites::instances::Instance;
 use welkin_runtime::internals::sprites::locks::{LOCK, NEAR};
 use welkin_runtime::internals::sprites::outline::Outline;
@@ -31,6 +32,8 @@ pub struct Inputs<'a> {
     pub sheet: &'a Texture,
     /// Outlines of its cells.
     pub outlines: &'a [Outline],
+    /// Light in the field.
+    pub exposures: &'a Exposures,
 }
 
 /// A corner of a sprite.
@@ -171,7 +174,7 @@ pub fn placed(
         let offset = axes[0] * x + axes[1] * y;
         let share = (0.5 + 0.5 * offset.y / half_height).clamp(0.0, 1.0);
         let shade = if own.thickness > 0.0 {
-            scattered(inputs, instance, turned, offset, middle)
+            scattered(inputs, instance, block, turned, offset)
         } else {
             article(inputs, instance, offset, share)
         };
@@ -213,41 +216,29 @@ struct Shade {
 fn scattered(
     inputs: &Inputs,
     instance: &Instance,
+    block: &SpriteBlock,
     turned: [Vec3; 3],
     offset: Vec3,
-    middle: Vec3,
 ) -> Shade {
+    let middle = block.origin + instance.centre_m();
     let own = &inputs.uniforms.sprites;
     let to_sun = own.light_direction;
-    let share = |byte: u8| f32::from(byte) / 255.0;
-    let facing = turned[2];
-    let radius = instance.radius_m();
-    let halvings = share(instance.above[2]) * MOST_HALVINGS_M * radius;
-    // East, south, west, north; the side that the sun is on counts.
-    let side = |positive: usize, negative: usize, cosine: f32| {
-        let number = if cosine > 0.0 { positive } else { negative };
-        share(instance.sides[number]) * MOST_DEPTH * cosine * cosine
+    let nearer = BULGE * instance.radius_m() * turned[2];
+    let place = block.section.extend(0.0).xzy() + instance.centre_m() + offset + nearer;
+    let [east, south, west, north, above, open] = exposure(inputs.exposures, place);
+    let squares = to_sun * to_sun;
+    let side = |positive: f32, negative: f32, cosine: f32| {
+        if cosine > 0.0 { positive } else { negative }
     };
-    let depth = side(0, 2, to_sun.x)
-        + side(1, 3, to_sun.z)
-        + share(instance.above[0]) * MOST_DEPTH * to_sun.y * to_sun.y;
-    let depth = own.thickness * (depth - BULGE * halvings * facing.dot(to_sun)).max(0.0);
+    let depths = Vec3::new(
+        side(east, west, to_sun.x),
+        above,
+        side(south, north, to_sun.z),
+    );
+    let depth = own.thickness * MOST_DEPTH * squares.dot(depths);
     let phase = clouds::phase((middle + offset).normalize().dot(to_sun));
-    let sunlit = |depth: f32| {
-        MULTIPLE[0] * libm::exp2f(-MULTIPLE[1] * depth)
-            + (SINGLE[0] + PHASE * phase) * libm::exp2f(-depth)
-    };
-    let more = own.thickness * halvings;
-    // From a radius beyond the middle to a radius before it.
-    let between =
-        |far: f32, near: f32, cosine: f32| far + (near - far) * (0.5 + 0.5 * cosine / radius);
-    let (far, near) = (sunlit(depth + more), sunlit((depth - more).max(0.0)));
-    let sunlit = between(far, near, offset.dot(to_sun)).max(0.0);
-    let open = |up: f32| {
-        let halvings = halvings * (BULGE * facing.y + up);
-        (share(instance.above[1]) * libm::exp2f(0.5 * halvings)).min(1.0)
-    };
-    let open = between(open(-1.0), open(1.0), offset.y).clamp(0.0, 1.0);
+    let sunlit = MULTIPLE[0] * libm::exp2f(-MULTIPLE[1] * depth)
+        + (SINGLE[0] + PHASE * phase) * libm::exp2f(-depth);
     let [right, top, front] = turned.map(|axis| axis.dot(to_sun));
     let rim = SINGLE[1] * (-front).max(0.0) * phase * libm::exp2f(-depth);
     Shade {
@@ -262,6 +253,33 @@ fn scattered(
             ),
         sky: own.relief * Vec3::new(FRONT, SIDES * turned[0].y, SIDES * turned[1].y),
     }
+}
+
+/// What a place of the field has, 0..1: depths from the east, south, west, north and above, over the most; the sky's share.
+fn exposure(grid: &Exposures, place_m: Vec3) -> [f32; 6] {
+    let per_m = Vec3::new(grid.span.per_m.x, grid.span.per_m.y, grid.span.per_m.x);
+    let share = (place_m - grid.span.base_m * Vec3::Y) * per_m;
+    let place = share * Vec3::from(grid.cells.map(|cells| cells as f32)) - 0.5;
+    let [across, up, along] = grid.cells.map(i64::from);
+    let from = place.floor();
+    let mut sums = [0.0; 6];
+    for corner in 0..8 {
+        let far = Vec3::from([0, 1, 2].map(|axis| f32::from(corner >> axis & 1 == 1)));
+        let shares = far * (place - from) + (1.0 - far) * (1.0 - place + from);
+        let [x, y, z] = (from + far).to_array().map(|cell| cell as i64);
+        let (x, y, z) = (
+            x.rem_euclid(across),
+            y.clamp(0, up - 1),
+            z.rem_euclid(along),
+        );
+        let cell = ((z * up + y) * across + x) as usize;
+        let [above, sky, ..] = grid.above[cell];
+        let [east, south, west, north] = grid.sides[cell];
+        for (sum, byte) in sums.iter_mut().zip([east, south, west, north, above, sky]) {
+            *sum += shares.element_product() * f32::from(byte) / 255.0;
+        }
+    }
+    sums
 }
 
 fn article(inputs: &Inputs, instance: &Instance, offset: Vec3, up: f32) -> Shade {

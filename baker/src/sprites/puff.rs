@@ -46,8 +46,8 @@ const HIDING: f32 = 5.0;
 
 /// Where the flat bottom is, how far it fades up and down from there, how uneven it is, and how large the unevenness.
 pub(crate) const FLOOR: f32 = -0.2;
-const FLOOR_FADE: f32 = 0.08;
-const FLOOR_UNEVEN: f32 = 0.03;
+const FLOOR_FADE: f32 = 0.2;
+const FLOOR_UNEVEN: f32 = 0.08;
 const FLOOR_CELL: f32 = 0.2;
 
 pub(super) struct Puff<'a> {

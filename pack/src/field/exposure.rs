@@ -9,14 +9,14 @@
 //! they meet. A sprite sees its own cloud, and those of lower rank, which are there whenever it is.
 //!
 //! # Practice
-//! Depths are halvings of light most of which is scattered on forwards, far fewer than Beer's law has: a puff counts three through its middle.
+//! Depths are halvings of light most of which is scattered on forwards, far fewer than Beer's law has: a puff counts two through its middle.
 //! Time goes with the sprites: nine rays of at most four kilometres each, 25 microseconds a sprite.
 
 use super::{Cloud, Exposure, Field, MOST_DEPTH, MOST_HALVINGS_M, Sprite};
 use crate::mapping::{SheetCell, SheetKind};
 
 /// Depth through the middle of fog, of a wisp and of a puff, in halvings.
-const THICKNESS: [f32; 3] = [0.5, 0.6, 3.0];
+const THICKNESS: [f32; 3] = [0.3, 0.4, 2.0];
 
 /// Half axes of the ellipsoid as a share of the sprite's width and height: more than a picture shows, since light is scattered to and fro between
 /// neighbours, which have about as much of it.

@@ -18,7 +18,7 @@ use crate::pack_data::PackData;
 use crate::params::{Method, SkyParams};
 use crate::tonemap;
 #[cfg(feature = "weather")]
-use crate::weather::{lightning, rain, rays};
+use crate::weather::{lightning, rain, rainbow, rays};
 
 /// How much brighter the densest overcast is at the horizon than above: chosen.
 const SLIT: f32 = 1.3;
@@ -151,6 +151,7 @@ fn write_weather(uniforms: &mut Uniforms, frame: &MethodFrame<'_>, screen: &Rays
     let (params, view, clouds) = (frame.params, &frame.view, &uniforms.clouds);
     let flash = lightning::uniforms(params, view, clouds);
     uniforms.rain = rain::uniforms(params, view, screen, clouds, &flash);
+    uniforms.rainbow = rainbow::uniforms(params, frame.light.sun_direction, clouds);
     uniforms.rays = rays::uniforms(params, &frame.light, clouds, screen, view.pixel_rad);
     uniforms.lightning = flash;
     flash.light

@@ -2,6 +2,7 @@
 
 use wgpu::util::DeviceExt;
 
+use super::exposures::{Exposures, Span};
 use super::instances::{INSTANCES_PER_ROW, Instance};
 use super::outline;
 use super::pipelines::{GroupLayouts, STRIDE, SpriteBlock, one_of};
@@ -15,16 +16,18 @@ pub struct Blocks {
     pub buffer: wgpu::Buffer,
     /// As they will be there.
     pub bytes: Vec<u8>,
+    exposed: Span,
 }
 
 impl Blocks {
     /// Room for those of a frame.
-    pub fn new(device: &wgpu::Device, slots: usize) -> Blocks {
+    pub fn new(device: &wgpu::Device, slots: usize, exposed: Span) -> Blocks {
         // Every block on the screen, and in at most three pictures of a ring.
         let most = 4 * slots;
         Blocks {
             buffer: uniform_buffer(device, "blocks of sprites", most as u64 * STRIDE),
             bytes: Vec::with_capacity(most * STRIDE as usize),
+            exposed,
         }
     }
 
@@ -39,6 +42,9 @@ impl Blocks {
             opacity: draw.opacity,
             first: draw.first,
             vertices_log2: draw.vertices.ilog2(),
+            section: draw.section,
+            exposed_per_m: self.exposed.per_m,
+            exposed_base_m: self.exposed.base_m,
             ..Default::default()
         };
         self.bytes.extend_from_slice(bytemuck::bytes_of(&block));
@@ -102,6 +108,44 @@ pub fn upload(queue: &wgpu::Queue, texture: &wgpu::Texture, row: u32, sprites: &
     );
 }
 
+/// Empty textures for both halves of a grid of exposures.
+pub fn exposure_textures(device: &wgpu::Device, exposures: &Exposures) -> [wgpu::Texture; 2] {
+    let [width, height, depth_or_array_layers] = exposures.cells;
+    ["exposures from the sides", "exposures from above"].map(|label| {
+        device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D3,
+            format: wgpu::TextureFormat::Rgba8Unorm,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        })
+    })
+}
+
+/// Writes a grid of exposures.
+pub fn write_exposures(queue: &wgpu::Queue, textures: &[wgpu::Texture; 2], exposures: &Exposures) {
+    let [width, height, _] = exposures.cells;
+    for (texture, texels) in textures.iter().zip([&exposures.sides, &exposures.above]) {
+        queue.write_texture(
+            texture.as_image_copy(),
+            bytemuck::cast_slice(texels),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(4 * width),
+                rows_per_image: Some(height),
+            },
+            texture.size(),
+        );
+    }
+}
+
 /// Triangles of as many outlines and boxes as a slot has room for.
 pub fn index_buffers(device: &wgpu::Device, scene: &Scene) -> [wgpu::Buffer; 2] {
     let room = scene.rows_a_slot() * INSTANCES_PER_ROW;
@@ -154,10 +198,14 @@ pub fn sprites_group(
     device: &wgpu::Device,
     groups: &GroupLayouts,
     [sheet, amounts, instances]: [&wgpu::Texture; 3],
+    exposed: &[wgpu::Texture; 2],
     [views, blocks, outlines]: [&wgpu::Buffer; 3],
 ) -> wgpu::BindGroup {
     let [sheet, amounts, instances] =
         [sheet, amounts, instances].map(|t| t.create_view(&Default::default()));
+    let [sides, above] = exposed
+        .each_ref()
+        .map(|t| t.create_view(&Default::default()));
     let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
     device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("sprites"),
@@ -169,6 +217,8 @@ pub fn sprites_group(
             entry(6, one_of(blocks, size_of::<SpriteBlock>())),
             entry(10, outlines.as_entire_binding()),
             entry(11, wgpu::BindingResource::TextureView(&instances)),
+            entry(12, wgpu::BindingResource::TextureView(&sides)),
+            entry(13, wgpu::BindingResource::TextureView(&above)),
         ],
     })
 }

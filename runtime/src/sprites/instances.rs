@@ -35,10 +35,8 @@ pub struct Instance {
     pub names: [u8; 4],
     /// xyz: the way it faces for ever, w: 1 if it does, in 127ths.
     pub lock: [i8; 4],
-    /// Halvings of sunlight from the east, south, west and north over [`MOST_DEPTH`](welkin_pack::field::MOST_DEPTH), in 255ths.
-    pub sides: [u8; 4],
-    /// The same from above; the sky's share; halvings a metre over [`MOST_HALVINGS_M`](welkin_pack::field::MOST_HALVINGS_M); nothing.
-    pub above: [u8; 4],
+    /// Nothing.
+    pub padding: [u8; 8],
 }
 
 /// The largest half side of a sprite, in metres: what a device reads as 1. Steps are an eighth of a metre.
@@ -186,13 +184,7 @@ fn of_sprite(cloud: &Cloud, sprite: &Sprite, number: [u8; 2]) -> Instance {
         high,
         names: [sprite.cell, number[0], number[1], 0],
         lock: [0; 4],
-        sides: sprite.exposure.sides,
-        above: [
-            sprite.exposure.above,
-            sprite.exposure.sky,
-            sprite.exposure.halvings,
-            0,
-        ],
+        padding: [0; 8],
     }
 }
 
@@ -214,26 +206,11 @@ fn billboard(cloud: &Cloud, number: [u8; 2]) -> Instance {
         rotation_rad: 0.0,
         cell,
         cloud_box: u16::MAX,
-        exposure: mean_exposure(cloud),
+        exposure: Exposure::default(),
     };
     let mut instance = of_sprite(cloud, &sprite, number);
     instance.names[3] = 1;
     instance
-}
-
-/// What of its sprites a cloud's billboard shows.
-fn mean_exposure(cloud: &Cloud) -> Exposure {
-    let count = cloud.sprites.len().max(1) as u32;
-    let mean = |value: &dyn Fn(&Exposure) -> u8| {
-        let values = cloud.sprites.iter().map(|s| u32::from(value(&s.exposure)));
-        (values.sum::<u32>() / count) as u8
-    };
-    Exposure {
-        sides: [0, 1, 2, 3].map(|side| mean(&|own| own.sides[side])),
-        above: mean(&|own| own.above),
-        sky: mean(&|own| own.sky),
-        halvings: mean(&|own| own.halvings),
-    }
 }
 
 /// How much larger a cloud's billboard is than the cloud.

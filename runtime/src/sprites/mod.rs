@@ -6,7 +6,7 @@
 //! ambient colour, from five levels over the cloud's height and the time of day, and a directional one: the sun's most colour
 //! times a share between a least and a most one, by the cosine between the way from the middle of the vertex's shading group and the
 //! sun. Texture colour is added. The parts are files: [`hours`] (light over the day), [`formation`], [`instances`] (what the
-//! device reads), [`grid`] (blocks), [`order`] (sorting), [`locks`] (in the cloud), [`ring`] (impostors).
+//! device reads), [`exposures`] (light in the field), [`grid`] (blocks), [`order`] (sorting), [`locks`] (in the cloud), [`ring`] (impostors).
 //!
 //! # Changes versus the paper
 //! - The sheet's grey is relief about one half: it is added in proportion to the light, or clouds would glow at night.
@@ -22,6 +22,7 @@
 //! what is drawn later should test depth against the scene alone, since sprites write none. It wants a target that can be blended with.
 
 mod device;
+pub mod exposures;
 pub mod formation;
 pub(crate) mod frame;
 pub mod grid;
@@ -106,13 +107,13 @@ const CHANGE: f32 = 0.15;
 const OPACITY: [f32; 2] = [0.85, 1.0];
 const DARK_BASE: [f32; 2] = [0.0, 0.5];
 /// Factor on depths at density 0 and 1.
-const THICKNESS: [f32; 2] = [0.6, 1.1];
+const THICKNESS: [f32; 2] = [0.35, 1.5];
 /// Share of the phase function in what a sprite shows as a whole; rims show all of it.
 pub const PHASE: f32 = 0.08;
 /// Pixels of the screen that a texel of the sheet covers: clouds have no edges as sharp as a screen's.
 pub const SOFT: f32 = 1.6;
 /// How far the near side of a sprite's body is before its middle, in half sides.
-pub const BULGE: f32 = 0.35;
+pub const BULGE: f32 = 0.7;
 /// How much of the relief that is lit from the front shows in light from the side.
 pub const FRONT: f32 = 0.4;
 /// How much of the relief of the sides shows.

@@ -7,9 +7,10 @@ use welkin_pack::Field;
 use wgpu::util::DeviceExt;
 
 use super::device::{
-    Blocks, amounts_texture, index_buffers, instances_texture, sprites_group, uniform_buffer,
-    upload, write_amounts,
+    Blocks, amounts_texture, exposure_textures, index_buffers, instances_texture, sprites_group,
+    uniform_buffer, upload, write_amounts, write_exposures,
 };
+use super::exposures::{Exposures, Span};
 use super::frame::{Frame, screen_view, station};
 use super::grid::{BlockId, around, slots_a_side};
 use super::instances::{INSTANCES_PER_ROW, Instance};
@@ -40,6 +41,11 @@ pub(crate) struct Pass {
     views: wgpu::Buffer,
     outlines: wgpu::Buffer,
     blocks: Blocks,
+    /// Light in the field.
+    exposed: [wgpu::Texture; 2],
+    exposed_span: Span,
+    /// What they will hold from the first frame on.
+    unwritten: Option<Exposures>,
     sprites_group: wgpu::BindGroup,
     ring: Option<Ring>,
     ring_uniforms: wgpu::Buffer,
@@ -78,7 +84,9 @@ impl Pass {
             usage: wgpu::BufferUsages::UNIFORM,
         });
         let slots = slots_a_side(distance).pow(2);
-        let blocks = Blocks::new(device, slots);
+        let exposures = Exposures::new(field);
+        let exposed = exposure_textures(device, &exposures);
+        let blocks = Blocks::new(device, slots, exposures.span);
         let instances = instances_texture(device, scene.rows(distance));
         Pass {
             indices: index_buffers(device, &scene),
@@ -86,6 +94,7 @@ impl Pass {
                 device,
                 &groups,
                 [sheet, &amounts, &instances],
+                &exposed,
                 [&views, &blocks.buffer, &outlines],
             ),
             ring_uniforms: uniform_buffer(device, "ring", size_of::<RingUniforms>() as u64),
@@ -100,6 +109,9 @@ impl Pass {
             instances,
             step: Step::Keep,
             sheet: sheet.clone(),
+            exposed,
+            exposed_span: exposures.span,
+            unwritten: Some(exposures),
             scene,
             groups,
             amounts,
@@ -140,6 +152,9 @@ impl Pass {
             .sight_m(asked, device.limits().max_texture_dimension_2d);
         if self.scene.fit(sight_m) {
             self.refit(device, sheet, sight_m);
+        }
+        if let Some(exposures) = self.unwritten.take() {
+            write_exposures(queue, &self.exposed, &exposures);
         }
         let viewer_m = frame.viewer_m();
         if self.scene.form(frame.params, frame.seconds) {
@@ -207,19 +222,26 @@ impl Pass {
         buffers.iter().map(|b| b.size()).sum::<u64>()
             + u64::from(self.instances.height() * INSTANCES_PER_ROW) * size_of::<Instance>() as u64
             + self.scene.amounts.len() as u64
+            + self.exposed_bytes()
             + self.ring_bytes()
+    }
+
+    fn exposed_bytes(&self) -> u64 {
+        let size = self.exposed[0].size();
+        2 * 4 * u64::from(size.width * size.height * size.depth_or_array_layers)
     }
 
     fn refit(&mut self, device: &wgpu::Device, sheet: &wgpu::Texture, sight_m: f32) {
         let slots = slots_a_side(sight_m).pow(2);
         self.instances = instances_texture(device, self.scene.rows(sight_m));
-        self.blocks = Blocks::new(device, slots);
+        self.blocks = Blocks::new(device, slots, self.exposed_span);
         self.draws = Vec::with_capacity(4 * slots);
         self.found = Vec::with_capacity(slots);
         self.sprites_group = sprites_group(
             device,
             &self.groups,
             [sheet, &self.amounts, &self.instances],
+            &self.exposed,
             [&self.views, &self.blocks.buffer, &self.outlines],
         );
     }

@@ -1,8 +1,8 @@
 //! The pipelines and the bind groups of the sprites.
 
-use glam::{UVec2, Vec3};
+use glam::{Vec2, Vec3};
 use welkin_pack::SheetCell;
-use welkin_pack::field::{MOST_DEPTH, MOST_HALVINGS_M};
+use welkin_pack::field::MOST_DEPTH;
 
 use super::outline::Outline;
 use super::station::{self, RingUniforms, SpriteView};
@@ -28,7 +28,6 @@ pub const PART: Part = Part {
         ),
         ("SPRITE_MOST_AWAY", Value::F32(instances::MOST_AWAY_M)),
         ("SPRITE_MOST_DEPTH", Value::F32(MOST_DEPTH)),
-        ("SPRITE_MOST_HALVINGS", Value::F32(MOST_HALVINGS_M)),
         ("SPRITE_PHASE", Value::F32(super::PHASE)),
         ("SPRITE_BULGE", Value::F32(super::BULGE)),
         ("SPRITE_FRONT", Value::F32(super::FRONT)),
@@ -58,8 +57,14 @@ uniforms! {
         first: u32,
         /// log2 of the vertices of each: 3 for outlines, 2 for boxes.
         vertices_log2: u32,
+        /// From the corner of the field to that of its section, to the east and south, m.
+        section: Vec2,
+        /// 1 / size of the grid of exposures along the ground and upwards, 1 / m.
+        exposed_per_m: Vec2,
+        /// Height of its lower side, m.
+        exposed_base_m: f32,
         /// Nothing.
-        _pad: UVec2,
+        _pad: f32,
     }
 }
 
@@ -80,7 +85,7 @@ const KEEP: wgpu::BlendComponent = wgpu::BlendComponent {
 /// Layouts of group 1 of sprites and of the ring.
 #[derive(Debug)]
 pub(crate) struct GroupLayouts {
-    /// Sheet, amounts, view, block.
+    /// Sheet, amounts, view, block, outlines, instances, exposures.
     pub sprites: wgpu::BindGroupLayout,
     /// View, ring, both rings' pictures.
     pub ring: wgpu::BindGroupLayout,
@@ -117,6 +122,8 @@ impl GroupLayouts {
                 uniform(6, true, size_of::<SpriteBlock>()),
                 uniform(10, false, OUTLINES_BYTES),
                 entry(11, INSTANCES),
+                picture(12, wgpu::TextureViewDimension::D3),
+                picture(13, wgpu::TextureViewDimension::D3),
             ]),
             ring: layout(&[
                 view,

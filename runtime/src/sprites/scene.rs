@@ -3,7 +3,7 @@
 //! # Practice
 //! Everything that a frame needs is allocated once, when the field or the distance of sight changes.
 
-use glam::{DVec3, Vec3, Vec4};
+use glam::{DVec3, Vec2, Vec3, Vec4};
 use welkin_pack::Field;
 use welkin_pack::field::SECTION_SIDE_M;
 
@@ -58,6 +58,8 @@ pub struct Draw {
     pub count: u32,
     /// From the viewpoint to the block's corner, in metres.
     pub origin: Vec3,
+    /// From the field's corner to that of the block's section, to the east and south, in metres.
+    pub section: Vec2,
     /// Opacity of the block.
     pub opacity: f32,
     /// Vertices of each sprite: [`outline::VERTICES`] or [`outline::BOX`].
@@ -219,6 +221,11 @@ impl Scene {
             first: slot as u32 * self.rows_a_slot * INSTANCES_PER_ROW,
             count,
             origin: origin.as_vec3(),
+            section: SECTION_SIDE_M
+                * Vec2::new(
+                    (section % self.a_side) as f32,
+                    (section / self.a_side) as f32,
+                ),
             opacity: share,
             vertices: if is_far {
                 outline::BOX

@@ -11,6 +11,8 @@ struct SpriteOutlines {
 @group(1) @binding(6) var<uniform> sprite_block: SpriteBlock;
 @group(1) @binding(10) var<uniform> sprite_outlines: SpriteOutlines;
 @group(1) @binding(11) var instances_texture: texture_2d<u32>;
+@group(1) @binding(12) var exposed_sides: texture_3d<f32>;
+@group(1) @binding(13) var exposed_above: texture_3d<f32>;
 
 struct SpriteInstance {
     centre: vec3f,      // in its block, m
@@ -28,10 +30,6 @@ struct SpriteInstance {
     is_billboard: bool, // of a whole cloud
     lock: vec3f,        // the way it faces for ever
     is_locked: f32,     // 1 if it does
-    sides: vec4f,       // halvings of sunlight on its way from low in the east, south, west and north
-    above: f32,         // the same from above
-    sky: f32,           // share of skylight that gets there
-    halvings_m: f32,    // halvings a metre about it
 }
 
 // A sprite of the block. Read from a texture, since instances of a few vertices each leave most of a GPU's lanes idle.
@@ -46,7 +44,6 @@ fn sprite_instance(number: u32) -> SpriteInstance {
     let from_group = vec4f(unpack2x16snorm(b.z), unpack2x16snorm(b.w));
     let from_cloud = SPRITE_MOST_AWAY * vec4f(unpack2x16snorm(c.x), unpack2x16snorm(c.y));
     let lock = unpack4x8snorm(d.y);
-    let above = unpack4x8unorm(d.w) * vec4f(SPRITE_MOST_DEPTH, 1.0, SPRITE_MOST_HALVINGS, 0.0);
     return SpriteInstance(
         position.xyz,
         position.w,
@@ -63,10 +60,6 @@ fn sprite_instance(number: u32) -> SpriteInstance {
         (d.x >> 24u) == 1u,
         lock.xyz,
         lock.w,
-        SPRITE_MOST_DEPTH * unpack4x8unorm(d.z),
-        above.x,
-        above.y,
-        above.z,
     );
 }
 
@@ -117,13 +110,25 @@ fn sprite_axes(instance: SpriteInstance, facing: vec3f) -> mat2x3f {
     return mat2x3f(right * turn.x + up * turn.y, up * turn.x - right * turn.y);
 }
 
-// Halvings of sunlight on its way to a sprite: between those of the three directions about the sun's, by the squares of its cosines to them.
-fn sprite_depth(instance: SpriteInstance) -> f32 {
+// What of sun and sky gets to a place.
+struct SpriteExposure {
+    depth: f32, // halvings of sunlight on its way there
+    sky: f32,   // share of skylight
+}
+
+// Of a place in the block. Sunlight is dimmed as it is between the three directions about the sun's, by the squares of its cosines to them.
+fn sprite_exposure(place: vec3f) -> SpriteExposure {
+    let field = place + vec3f(sprite_block.section.x, -sprite_block.exposed_base_m, sprite_block.section.y);
+    var uv = field * sprite_block.exposed_per_m.xyx;
+    let half_texel = 0.5 / f32(textureDimensions(exposed_above).y);
+    uv.y = clamp(uv.y, half_texel, 1.0 - half_texel);
+    let sides = textureSampleLevel(exposed_sides, repeat_sampler, uv, 0.0);
+    let above = textureSampleLevel(exposed_above, repeat_sampler, uv, 0.0);
     let sun = uniforms.sprites.light_direction;
-    let squares = sun * sun;
-    let east_west = select(instance.sides.z, instance.sides.x, sun.x > 0.0);
-    let south_north = select(instance.sides.w, instance.sides.y, sun.z > 0.0);
-    return dot(squares, vec3f(east_west, instance.above, south_north));
+    let east_west = select(sides.z, sides.x, sun.x > 0.0);
+    let south_north = select(sides.w, sides.y, sun.z > 0.0);
+    let depth = SPRITE_MOST_DEPTH * dot(sun * sun, vec3f(east_west, above.x, south_north));
+    return SpriteExposure(depth, above.y);
 }
 
 // What a sprite shows, as radiance.
@@ -139,29 +144,23 @@ fn sprite_sunlit(depth: f32, single: f32) -> f32 {
     return CLOUD_MULTIPLE.x * exp2(-CLOUD_MULTIPLE.y * depth) + single * exp2(-depth);
 }
 
-// Light once and many times scattered, with what of it the sides of the picture take: docs/clouds.md. Over a sprite it changes evenly, between
-// what is a radius nearer to the light and as much farther, so that outlines and boxes show the same.
+// Light once and many times scattered, with what of it the sides of the picture take: docs/clouds.md. It is that of the place, not of
+// the sprite, so that neighbours which overlap are lit alike. What is seen is the near side of a body.
 fn sprite_scattered(instance: SpriteInstance, axes: mat2x3f, facing: vec3f, offset: vec3f, direction: vec3f) -> SpriteShade {
     let own = uniforms.sprites;
     let sun = own.light_direction;
     let radius = max(instance.half_size.x, instance.half_size.y);
-    let halvings = instance.halvings_m * radius;
-    // What is seen is the near side of a body.
-    let depth = own.thickness * max(sprite_depth(instance) - SPRITE_BULGE * halvings * dot(facing, sun), 0.0);
-    let more = own.thickness * halvings;
+    let exposure = sprite_exposure(instance.centre + offset + SPRITE_BULGE * radius * facing);
+    let depth = own.thickness * exposure.depth;
     let phase = cloud_phase(dot(direction, sun));
-    let single = CLOUD_SINGLE.x + SPRITE_PHASE * phase;
-    let place = vec2f(dot(offset, sun), offset.y) / radius * 0.5 + 0.5;
-    let sunlit = max(mix(sprite_sunlit(depth + more, single), sprite_sunlit(max(depth - more, 0.0), single), place.x), 0.0);
-    let open = instance.sky * exp2(0.5 * SPRITE_BULGE * halvings * facing.y + vec2f(-0.5, 0.5) * halvings);
-    let skylit = clamp(mix(min(open.x, 1.0), min(open.y, 1.0), place.y), 0.0, 1.0);
+    let sunlit = sprite_sunlit(depth, CLOUD_SINGLE.x + SPRITE_PHASE * phase);
     let towards = vec3f(dot(axes[0], sun), dot(axes[1], sun), dot(facing, sun));
     let up = vec3f(axes[0].y, axes[1].y, facing.y);
     let front = mix(SPRITE_FRONT, 1.0, max(towards.z, 0.0));
     let rim = CLOUD_SINGLE.y * max(-towards.z, 0.0) * phase * exp2(-depth);
     return SpriteShade(
         sunlit * own.light,
-        (SPRITE_LEAST_SKY + (1.0 - SPRITE_LEAST_SKY) * skylit) * own.ambient,
+        (SPRITE_LEAST_SKY + (1.0 - SPRITE_LEAST_SKY) * exposure.sky) * own.ambient,
         own.relief * vec4f(front, SPRITE_SIDES * towards.x, SPRITE_SIDES * towards.y, rim / max(sunlit, 1e-3)),
         own.relief * vec3f(SPRITE_FRONT, SPRITE_SIDES * up.x, SPRITE_SIDES * up.y),
     );

@@ -1,8 +1,9 @@
-//! Rain, rays and lightning.
+//! Rain and its bow, rays and lightning.
 
 pub mod lightning;
 pub(crate) mod overlays;
 pub mod rain;
+pub mod rainbow;
 pub mod rays;
 
 use crate::geometry::part::Part;

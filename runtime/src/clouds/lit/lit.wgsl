@@ -53,7 +53,8 @@ struct LitLight {
 // Draws a layer, as its map has it, before those behind it.
 fn lit_before(behind: LitLight, index: i32, cloud: vec4f, grain: LitGrain, direction: vec3f) -> LitLight {
     let opacity = lit_opacity(index, cloud.b, grain);
-    let own = uniforms.lit.layers[index].grain * (grain.across - LIT_GRAIN_DEEPER * grain.denser);
+    let deeper = LIT_GRAIN_DEEPER.x + LIT_GRAIN_DEEPER.y * uniforms.lit.overcast;
+    let own = uniforms.lit.layers[index].grain * (grain.across - deeper * grain.denser);
     let depth = -log2(max(cloud.r, LIT_DARKEST)) / CLOUD_MULTIPLE.y - LIT_GRAIN_DEPTH * own * cloud.a;
     let shares = cloud_scattered(direction, max(depth, 0.0), cloud.a);
     // Under an overcast light is even: no layer is seen by its shade.

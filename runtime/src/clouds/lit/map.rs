@@ -36,6 +36,7 @@ pub const PART: Part = Part {
         ("LIT_CUMULUS", Value::Int(LayerKind::Cumulus as i32)),
         ("LIT_CIRRUS", Value::Int(LayerKind::Cirrus as i32)),
         ("LIT_BENDS", Value::Vec4(BENDS)),
+        ("LIT_FIBRE_LEVEL", Value::F32(FIBRE_LEVEL)),
         ("LIT_ROLLS", Value::Vec4(ROLLS)),
         ("LIT_ROLL_LEVELS", Value::Vec2(ROLL_LEVELS)),
         ("LIT_STEPS", Value::Vec3(Vec3::from_array(STEPS))),
@@ -64,11 +65,13 @@ pub const WEIGHTS: [f32; 2] = [0.6, 0.4];
 
 /// How far the fibres of cirrus are bent, in tiles: across by waves of one and of half a tile, along by waves of one and of a third.
 pub const BENDS: [f32; 4] = [0.10, 0.05, 0.09, 0.04];
+/// Level at which fibres are read, two tiles of them to one of the map: finer ones would be stairs of its texels overhead.
+pub const FIBRE_LEVEL: f32 = 1.0;
 /// Height of an overcast where its rolls have their mean, what rolls and the amount of cloud add, and how round its least height is. Numbers here
 /// and below are chosen by eye.
-pub const ROLLS: [f32; 4] = [0.7, 2.2, 0.25, 0.1];
+pub const ROLLS: [f32; 4] = [0.5, 1.5, 0.5, 0.1];
 /// Levels at which lumps and fibres are read as rolls: bands of one to two kilometres.
-pub const ROLL_LEVELS: [f32; 2] = [2.0, 3.0];
+pub const ROLL_LEVELS: [f32; 2] = [1.0, 2.0];
 /// Places towards the sun, in steps, and how far each is from the one before.
 pub const STEPS: [f32; 3] = [1.0, 2.5, 5.5];
 pub const APART: [f32; 3] = [1.0, 1.5, 3.0];

@@ -42,7 +42,7 @@ fn lit_bent(uv: vec2f) -> vec2f {
 // The first read of a layer.
 fn lit_first(kind: i32, uv: vec2f, level: f32) -> vec4f {
     if kind == LIT_CIRRUS {
-        return textureSampleLevel(layers_texture, repeat_sampler, 2.0 * lit_bent(uv), kind, level + 1.0);
+        return textureSampleLevel(layers_texture, repeat_sampler, 2.0 * lit_bent(uv), kind, level + LIT_FIBRE_LEVEL);
     }
     return textureSampleLevel(layers_texture, repeat_sampler, uv, kind, level);
 }

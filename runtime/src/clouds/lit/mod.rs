@@ -63,7 +63,7 @@ pub const PART: Part = Part {
         ("LIT_SHADED_BY_LAYER", Value::F32(SHADED_BY_LAYER)),
         ("LIT_LEAST_STRETCH", Value::F32(LEAST_STRETCH)),
         ("LIT_GRAIN_DEPTH", Value::F32(GRAIN_DEPTH)),
-        ("LIT_GRAIN_DEEPER", Value::F32(GRAIN_DEEPER)),
+        ("LIT_GRAIN_DEEPER", Value::Vec2(GRAIN_DEEPER)),
         ("LIT_DARKEST", Value::F32(DARKEST)),
         ("LIT_SIDE_FROM", Value::F32(SIDE_FROM)),
         ("LIT_SIDE_LIGHT", Value::Vec2(SIDE_LIGHT)),
@@ -165,9 +165,10 @@ pub const FINER_START: [f32; 2] = [0.29, 0.63];
 pub const FINER_RELIEF: f32 = 0.12;
 /// What a layer behind leaves of the light where it is opaque.
 pub const SHADED_BY_LAYER: f32 = 0.45;
-/// How much less deep in the cloud a place is whose grain's normal meets the sun, in halvings, and how much of its density makes it deeper.
+/// How much less deep in the cloud a place is whose grain's normal meets the sun, in halvings, and how much of its density makes it deeper; what an
+/// overcast, whose rolls are smooth, adds to that.
 pub const GRAIN_DEPTH: f32 = 1.2;
-pub const GRAIN_DEEPER: f32 = 0.048;
+pub const GRAIN_DEEPER: [f32; 2] = [0.048, 0.5];
 /// The least that the map tells of what was scattered many times.
 pub const DARKEST: f32 = 0.02;
 /// The opacity at its base from which a cloud has a side, and how much lighter sides are than the base: of the near one, and of the far ones.

@@ -38,7 +38,7 @@ use crate::device::map::LEAST_SIDE;
 use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
-use crate::params::SkyParams;
+use crate::params::{Shading, SkyParams};
 
 /// Its part of the shader.
 pub const PART: Part = Part {
@@ -147,6 +147,8 @@ const RELIEF_WAY: f64 = 0.75;
 const EROSION: f32 = 0.55;
 const ERODED_DENSE: f32 = 0.4;
 const ERODED_OVERCAST: f32 = 0.3;
+/// Levels by which the detail of an overcast is read coarser: its base is smooth.
+const SOFTER: f32 = 2.0;
 /// Halvings of the light behind, and of the light of the sun, by a height of 1 at density 0. Density 1 makes three times the first and
 /// twice the second.
 const OPACITY_RATE: f32 = 8.0;
@@ -206,6 +208,10 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun: Vec3) -> PackedUnifor
     let erosion =
         EROSION * kept(ERODED_DENSE, params.density) * kept(ERODED_OVERCAST, overcast_weight);
     let shut = SHUT * OVERCAST * overcast_weight * contrast;
+    let softer = match params.shading {
+        Shading::Scattered => SOFTER * overcast_weight,
+        Shading::Paper => 0.0,
+    };
     PackedUniforms {
         photo_offset: offset(PHOTO_START + (place - PHOTO_WIND * way) * scale),
         photo_scale: (scale * near) as f32,
@@ -214,7 +220,7 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun: Vec3) -> PackedUnifor
         noise_offset: offset(NOISE_START + (turned_place - noise_way) * noise_scale),
         detail_offset: offset((place - PHOTO_WIND * way) * detail_scale),
         detail_scale: (detail_scale * near) as f32,
-        detail_lod_bias: level(detail_scale * near),
+        detail_lod_bias: level(detail_scale * near) + softer,
         upper_scale: upper_scale.as_vec2(),
         upper_offset: offset(UPPER_START + DVec2::from(UPPER_SCALE) * upper_place),
         noise_lod_bias: level(noise_scale * near),

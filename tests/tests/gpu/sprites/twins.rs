@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Vec2, Vec3};
 use welkin_pack::Role;
+use welkin_pack::field::SECTION_SIDE_M;
+use welkin_runtime::internals::sprites::exposures::Exposures;
 use welkin_runtime::internals::sprites::grid::{BlockId, around};
 use welkin_runtime::internals::sprites::instances::{Instance, sections};
 use welkin_runtime::internals::sprites::outline::{BOXES_BEYOND_M, outlines};
@@ -37,6 +39,8 @@ fn stand(inputs: &Inputs, params: &SkyParams, viewer: DVec3, seconds: f64) -> Ve
         let uniform = SpriteBlock {
             origin,
             opacity: 1.0,
+            section: SECTION_SIDE_M
+                * Vec2::new((block.index(2) % 2) as f32, (block.index(2) / 2) as f32),
             vertices_log2: if far { 2 } else { 3 },
             ..Default::default()
         };
@@ -159,6 +163,7 @@ fn radiance_of_sprites_agrees_in_a_float_target() {
     let twin = Twin::new(pack);
     let [clouds, sheet] = [Role::Clouds, Role::Sprites].map(|role| Texture::new(pack, role));
     let outlines = outlines(pack.texture(Role::Sprites).unwrap());
+    let exposures = Exposures::new(pack.field().unwrap());
     for (name, params, camera) in cases() {
         sky.reset_history();
         let actual = gpu::rgb(&gpu::render(&mut sky, format, &params, &camera, 0.0));
@@ -180,6 +185,7 @@ fn radiance_of_sprites_agrees_in_a_float_target() {
             sky: &frame.sky,
             sheet: &sheet,
             outlines: &outlines,
+            exposures: &exposures,
         };
         let lifted = camera.position_m.as_dvec3();
         let sprites = stand(&inputs, &params, lifted, 0.0);

@@ -273,8 +273,7 @@ fn a_target_that_cannot_be_blended_with_shows_what_needs_no_blending() {
     let rain = with(defaults, |w| w.rain = 1.0);
     let twin = Twin::new(pack::default_pack());
     let frame = twin.frame_without_map(&rain, &view(), BRIGHT_S);
-    let haze = |ray| welkin_tests::rain::haze(&frame.uniforms.rain, ray);
-    let hazed = frame.under(&gpu::rgb(&without), haze);
+    let hazed = frame.rained_on(&gpu::rgb(&without));
     let bounds: Vec<Vec3> = hazed.iter().map(|h| 1e-6 * h.abs() + 1e-4).collect();
     assert_near("haze", &hazed, &gpu::rgb(&picture(&rain)), &bounds, 0.1);
     assert_ne!(

@@ -14,7 +14,7 @@ use super::{FORMAT, SIZE, assert_near, drawn, params, with};
 fn rained_on(frame: &Frame, picture: &[Vec3], turned_rad: f32) -> Vec<Vec3> {
     let Uniforms { camera, rain, .. } = &frame.uniforms;
     let mut covered = rain::streaks(camera, rain, turned_rad).into_iter();
-    let hazed = frame.under(picture, |ray| rain::haze(rain, ray));
+    let hazed = frame.rained_on(picture);
     frame.under(&hazed, |_| {
         (rain.streak, covered.next().expect("every pixel is there"))
     })
@@ -33,6 +33,8 @@ fn rain_is_the_twins() {
         ("up", 1.0, 1.2, 0.3, 1.0, 1e5),
         ("down", 2.0, -1.3, 1.0, 0.6, -12.0),
         ("late", 5.0, 0.4, 0.2, 0.9, 1e7),
+        // Away from the sun: both bows.
+        ("bow", 1.1, 0.3, 0.2, 0.9, 3.0),
     ] {
         let off = SkyParams {
             speed,
@@ -50,7 +52,7 @@ fn rain_is_the_twins() {
             .map(|((e, l), r)| (*e - l).abs().max((*e - r).abs()) + 0.003 * e.abs() + 1e-4)
             .collect();
         assert_near(&format!("rain_{name}"), &expected, &actual, &bounds, 0.25);
-        let hazed = frame.under(&without, |ray| rain::haze(&frame.uniforms.rain, ray));
+        let hazed = frame.rained_on(&without);
         let most = actual
             .iter()
             .zip(&hazed)
@@ -58,6 +60,50 @@ fn rain_is_the_twins() {
             .fold(0.0, f32::max);
         assert!(most > 0.02, "{name}: streaks are there: {most}");
     }
+}
+
+/// A column of a picture through the top of the bow, which a sun 20 degrees high has 22 degrees high.
+#[test]
+fn a_bow_stands_opposite_the_sun_red_outside() {
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    let clear = SkyParams {
+        cover: 0.0,
+        speed: 0.0,
+        ..params(Method::Packed)
+    };
+    let wet = with(clear, |w| w.rain = 0.5);
+    let twin = Twin::new(pack::default_pack());
+    let north = Camera::looking(0.0, 0.3, 1.0, [1, 400]);
+    let rainbow = twin.frame_without_map(&wet, &north, 0.0).uniforms.rainbow;
+    let azimuth = rainbow.antisolar.x.atan2(-rainbow.antisolar.z);
+    let view = Camera::looking(azimuth, 0.3, 1.0, [1, 400]);
+    let frame = twin.frame_without_map(&wet, &view, 0.0);
+    let dry = drawn(&mut sky, &clear, &view, 0.0);
+    // Streaks aside.
+    let bow = frame.rained_on(&dry);
+    let mut hazed = frame;
+    hazed.uniforms.rainbow = Default::default();
+    let added: Vec<Vec3> = bow
+        .iter()
+        .zip(hazed.rained_on(&dry))
+        .map(|(a, b)| *a - b)
+        .collect();
+    let angle = |row: usize| {
+        let up = 1.0 - 2.0 * (row as f32 + 0.5) / 400.0;
+        let elevation = 0.3 + (up * 0.5_f32.tan()).atan();
+        (elevation - rainbow.antisolar.y.asin()).to_degrees()
+    };
+    let brightest = |channel: usize| {
+        let rows = (0..400).filter(|&row| angle(row) < 46.0);
+        angle(
+            rows.max_by(|&a, &b| added[a][channel].total_cmp(&added[b][channel]))
+                .unwrap(),
+        )
+    };
+    let [red, green, blue] = [0, 1, 2].map(brightest);
+    // C. B. Boyer, "The Rainbow: From Myth to Mathematics", 1959: 42 degrees.
+    assert!((red - 42.0).abs() < 0.5, "{red}");
+    assert!(blue < green && green < red, "{red} {green} {blue}");
 }
 
 /// Streaks stand along the ray of the middle pixel, which meets none of them.
