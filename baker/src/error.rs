@@ -62,16 +62,16 @@ pub enum BakeError {
         source: io::Error,
     },
     /// A photograph that no recipe names could not be read.
-    #[error("{}: cannot be read: {source}; name a PNG or JPEG file", shown(.file))]
+    #[error("{}: cannot be read: {source}; name a photograph", shown(.file))]
     ReadPhoto {
         /// The photograph.
         file: String,
         /// The operating system's reason.
         source: io::Error,
     },
-    /// A PNG or JPEG could not be decoded.
+    /// A PNG, JPEG, TIFF or WebP could not be decoded.
     #[error(
-        "{}: cannot be decoded: {}; expected a whole PNG or JPEG file",
+        "{}: cannot be decoded: {}; expected a whole file of its kind; save or copy it again",
         shown(.file), shown(&.source.to_string())
     )]
     Decode {

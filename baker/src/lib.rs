@@ -48,7 +48,7 @@ mod stream;
 mod sun;
 
 pub use bake::{Progress, bake, bake_from, cloud_field, skybox_faces, sources, sprite_sheet};
-pub use clouds::photo::{BUILT_IN_NAME as BUILT_IN_PHOTO, photo_channel};
+pub use clouds::photo::{BUILT_IN_NAME as BUILT_IN_PHOTO, PhotoTile, photo_channel, photo_tile};
 pub use error::{BakeError, Fault, RecipeError};
 pub use field::model::cloud_model;
 pub use inputs::Inputs;

@@ -4,10 +4,15 @@
 //! wanted as radiance. A camera held upright says so in its file (Exif 2.32, tag 0x0112, Orientation): such a picture is
 //! turned before anything looks at it.
 
+mod colours;
 mod exr;
+mod format;
 mod hdr;
+mod icc;
+mod photograph;
 mod primaries;
 mod sky;
+mod srgb;
 mod stored;
 mod texture;
 
@@ -16,9 +21,9 @@ use std::path::Path;
 use crate::error::{BakeError, too_long};
 use crate::inputs::read_limited;
 
+pub(crate) use photograph::{Photograph, decode};
 pub(crate) use sky::{MAX_RADIANCE, decode_sky};
 pub use stored::MAX_FILE_BYTES;
-pub(crate) use stored::decode;
 pub use texture::{TextureFile, decode_texture};
 
 /// Reads the bytes of a photograph that no recipe names: a file of at most 256 MiB.

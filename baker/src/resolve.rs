@@ -265,7 +265,7 @@ impl Recipe {
         let Some(value) = entry else { return Ok(None) };
         match value.get_ref().as_str() {
             Some(text) if !text.is_empty() => Ok(Some(text.to_string())),
-            _ => Err(self.refuse(key, value, "the path of a PNG or JPEG file, as text")),
+            _ => Err(self.refuse(key, value, "the path of a photograph, as text")),
         }
     }
 

@@ -63,7 +63,7 @@ pub struct CloudSettings {
 /// A cloud channel made from a photograph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhotoSettings {
-    /// PNG or JPEG file; the built-in photograph if absent.
+    /// File of a photograph; the built-in one if absent.
     pub file: Option<String>,
     /// Texels a side, a power of two.
     pub size: u32,

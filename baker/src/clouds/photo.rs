@@ -17,6 +17,7 @@
 //! Most of the channel is near 0 and the thickest parts reach 1. The runtime magnifies it and multiplies
 //! its contrast by up to five, so it ends with a blur that leaves nothing sharper than a few texels.
 
+mod cover;
 #[cfg(test)]
 mod tests;
 
@@ -24,7 +25,7 @@ use welkin_pack::Image;
 
 use crate::error::{BakeError, unfit};
 use crate::filter::{self, Edge};
-use crate::load;
+use crate::load::{self, Photograph};
 use crate::settings::PhotoSettings;
 
 /// The photograph that is used when a recipe names none; assets-src/SOURCES.md says whose it is.
@@ -92,7 +93,7 @@ const OUTLIER: f32 = 8.0;
 
 /// A photograph made into a seamless cloud channel: one channel, `settings.size` texels a side, 0..1.
 ///
-/// `file_name` names the bytes in errors.
+/// `file_name` names the bytes in errors. Where the picture has an alpha channel, what is transparent is clear sky.
 ///
 /// # Errors
 /// [`BakeError::Decode`] or [`BakeError::Photo`].
@@ -101,32 +102,74 @@ pub fn photo_channel(
     file_name: &str,
     settings: &PhotoSettings,
 ) -> Result<Image, BakeError> {
-    let picture = load::decode(image_bytes, file_name)?;
-    channel(&picture, file_name, settings)
+    photo_tile(image_bytes, file_name, settings).map(|tile| tile.channel)
 }
 
-/// A photograph (gamma-encoded red, green, blue) becomes a seamless channel of `settings.size` texels a side.
-pub(crate) fn channel(
-    picture: &Image,
+/// The channel of a photograph, and what was taken of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PhotoTile {
+    /// What [`photo_channel`] gives.
+    pub channel: Image,
+    /// Columns and rows of the photograph, upright.
+    pub size: [u32; 2],
+    /// Left, top, width and height of the part that was used, in texels of the photograph.
+    pub region: [u32; 4],
+}
+
+/// The same as [`photo_channel`], with what was taken of the photograph.
+///
+/// # Errors
+/// As [`photo_channel`].
+pub fn photo_tile(
+    image_bytes: &[u8],
+    file_name: &str,
+    settings: &PhotoSettings,
+) -> Result<PhotoTile, BakeError> {
+    let photograph = load::decode(image_bytes, file_name)?;
+    tile(&photograph, file_name, settings)
+}
+
+fn tile(
+    photograph: &Photograph,
     file: &str,
     settings: &PhotoSettings,
-) -> Result<Image, BakeError> {
+) -> Result<PhotoTile, BakeError> {
     let size = settings.size;
     let margin = (size as f32 * MARGIN) as u32;
     let work = size + margin;
-    let [red, green, blue] = [0, 1, 2].map(|c| filter::resample(&square(picture, c), work, work));
+    let Photograph { colours, cover } = photograph;
+    let region = middle_square(colours);
+    let part = |image, channel| filter::resample(&cut(image, region, channel), work, work);
+    let mut rgb = [0, 1, 2].map(|channel| part(colours, channel));
+    let cover = cover.as_ref().map(|cover| cover::limited(part(cover, 0)));
+    if let Some(cover) = &cover {
+        rgb.iter_mut().for_each(|image| cover::fill(image, cover));
+    }
+    let [red, green, blue] = rgb;
     let luminance = filter::plane(work, work, |x, y| {
         let i = red.index(x, y);
         // Rec. 709 luma weights, ITU-R BT.709-6, item 3.2.
         0.2126 * red.texels[i] + 0.7152 * green.texels[i] + 0.0722 * blue.texels[i]
     });
-    verify_contrast(file, "contrast", &luminance, LEAST_CONTRAST)?;
-    let cloud = cloudiness(&red, &blue, &luminance);
-    let mut channel = soften(&close(&cloud, size, margin));
-    verify_contrast(file, "contrast of its clouds", &channel, LEAST_LEFT)?;
-    filter::calibrate(&mut channel, CLEAR, OUTLIER, settings.mean);
-    verify_contrast(file, "contrast of its channel", &channel, LEAST_CONTRAST)?;
-    Ok(channel)
+    let mut cloud = match &cover {
+        // An even cloud is fit for use if its outline is there.
+        Some(cover) if cover.mean_and_spread(0).1 >= LEAST_CONTRAST => {
+            cover::clear(cloudiness(&red, &blue, &luminance), cover)
+        }
+        _ => {
+            verify_contrast(file, "contrast", &luminance, LEAST_CONTRAST)?;
+            cloudiness(&red, &blue, &luminance)
+        }
+    };
+    cloud = soften(&close(&cloud, size, margin));
+    verify_contrast(file, "contrast of its clouds", &cloud, LEAST_LEFT)?;
+    filter::calibrate(&mut cloud, CLEAR, OUTLIER, settings.mean);
+    verify_contrast(file, "contrast of its channel", &cloud, LEAST_CONTRAST)?;
+    Ok(PhotoTile {
+        channel: cloud,
+        size: [colours.width, colours.height],
+        region,
+    })
 }
 
 /// Refuses an image that is nearly constant.
@@ -144,11 +187,20 @@ fn verify_contrast(
     Err(unfit(file, key, format!("{contrast:.5}"), expected))
 }
 
-/// The middle square of one channel.
-fn square(picture: &Image, channel: usize) -> Image {
+/// The largest square in the middle: left, top, width, height.
+fn middle_square(picture: &Image) -> [u32; 4] {
     let side = picture.width.min(picture.height);
-    let (left, top) = ((picture.width - side) / 2, (picture.height - side) / 2);
-    filter::plane(side, side, |x, y| {
+    [
+        (picture.width - side) / 2,
+        (picture.height - side) / 2,
+        side,
+        side,
+    ]
+}
+
+/// A part of one channel.
+fn cut(picture: &Image, [left, top, width, height]: [u32; 4], channel: usize) -> Image {
+    filter::plane(width, height, |x, y| {
         picture.texels[picture.index(left + x, top + y) + channel]
     })
 }

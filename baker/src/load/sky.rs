@@ -4,7 +4,7 @@ use image::{DynamicImage, ImageFormat, Rgba};
 use welkin_pack::Image;
 
 use super::stored::{MAX_SIDE, decode_stored};
-use super::{exr, hdr};
+use super::{exr, hdr, srgb};
 use crate::error::{BakeError, unfit, unfit_size};
 use crate::inputs::Picture;
 
@@ -39,7 +39,7 @@ pub(crate) fn decode_sky(
     };
     let mut image = match image::guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => {
-            to_radiance(decode_stored(bytes, file, format, &fits)?)
+            to_radiance(decode_stored(bytes, file, format, &fits)?.picture)
         }
         Ok(ImageFormat::OpenExr) => exr::decode(bytes, file, &fits)?,
         _ if hdr::is_hdr(bytes) => hdr::decode(bytes, file, &fits)?,
@@ -53,7 +53,7 @@ pub(crate) fn decode_sky(
 }
 
 /// Refuses what is not a number, and brings radiance to 0 and more and cover to 0..1.
-fn tame(image: &mut Image, file: &str) -> Result<(), BakeError> {
+pub(super) fn tame(image: &mut Image, file: &str) -> Result<(), BakeError> {
     let is_nan = |texel: &[f32]| texel.iter().any(|v| v.is_nan());
     let texels = || image.texels.chunks_exact(image.channels);
     if let Some(first) = texels().position(is_nan) {
@@ -79,7 +79,7 @@ fn tame(image: &mut Image, file: &str) -> Result<(), BakeError> {
 fn to_radiance(picture: DynamicImage) -> Image {
     let (width, height) = (picture.width(), picture.height());
     let unit = |stored: u16| f32::from(stored) / 65535.0;
-    let linear: Vec<f32> = (0..=u16::MAX).map(|v| srgb_to_linear(unit(v))).collect();
+    let linear: Vec<f32> = (0..=u16::MAX).map(|v| srgb::decode(unit(v))).collect();
     let mut texels = Vec::with_capacity(width as usize * height as usize * 4);
     // A byte times 257 is the same share of 65535.
     for Rgba([rgb @ .., alpha]) in picture.into_rgba16().pixels() {
@@ -92,14 +92,5 @@ fn to_radiance(picture: DynamicImage) -> Image {
         height,
         channels: 4,
         texels,
-    }
-}
-
-/// IEC 61966-2-1, the inverse of its encoding: stored 0..1 to linear 0..1.
-fn srgb_to_linear(stored: f32) -> f32 {
-    if stored <= 0.04045 {
-        stored / 12.92
-    } else {
-        libm::powf((stored + 0.055) / 1.055, 2.4)
     }
 }

@@ -120,7 +120,7 @@ impl Wanted<'_> {
             return Err(unfit(self.file, "format", "PNG", expected));
         }
         let fits = |width, height| self.fits(width, height);
-        let picture = decode_stored(bytes, self.file, ImageFormat::Png, &fits)?;
+        let picture = decode_stored(bytes, self.file, ImageFormat::Png, &fits)?.picture;
         let mut notes = Vec::new();
         if picture.color().bytes_per_pixel() / picture.color().channel_count() > 1 {
             notes.push(

@@ -11,6 +11,7 @@ mod layers;
 mod methods;
 mod night;
 mod photo;
+mod photo_formats;
 mod rebake;
 mod recipe;
 mod skybox;

@@ -44,7 +44,11 @@ fn nudged(picture: &Image) -> Image {
 }
 
 fn made(picture: &Image) -> Result<Image, BakeError> {
-    channel(picture, "p.png", &settings())
+    let photograph = Photograph {
+        colours: picture.clone(),
+        cover: None,
+    };
+    tile(&photograph, "p.png", &settings()).map(|tile| tile.channel)
 }
 
 /// Correlation of two images of one channel.
@@ -176,7 +180,7 @@ fn a_sky_of_colours_still_goes_by_its_ratio() {
         [cloud, 0.5 + 0.5 * cloud, 1.0]
     };
     let picture = picture(120, sky);
-    let [red, blue] = [0, 2].map(|c| square(&picture, c));
+    let [red, blue] = [0, 2].map(|c| cut(&picture, [0, 0, 120, 120], c));
     let ratio = filter::plane(120, 120, |x, y| {
         let i = red.index(x, y);
         (red.texels[i] + DARK) / (blue.texels[i] + DARK)
