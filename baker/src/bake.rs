@@ -150,7 +150,7 @@ pub fn sprite_sheet(
 
 /// Sees that every file that a recipe names is there, before anything is made.
 fn look_for_files(resolved: &Resolved, reader: &Reader) -> Result<(), BakeError> {
-    let photo = photo_source::file(&resolved.clouds.photo);
+    let photo = photo_source::files(&resolved.clouds.photo);
     let skybox = resolved.skybox.as_ref().map(skybox::files);
     let models = resolved.field.as_ref().map(field::files);
     let files = photo.into_iter().chain(sprites::files(&resolved.sprites));

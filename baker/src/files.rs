@@ -5,7 +5,8 @@ use crate::settings::{ModelSource, Resolved, SkyboxPicture, SpriteSource};
 impl Resolved {
     /// The files that the recipe names, as it names them: relative paths start from its folder.
     pub fn files(&self) -> Vec<&str> {
-        let photo = self.clouds.photo.file.iter();
+        let photo = &self.clouds.photo;
+        let photo = photo.file.iter().chain(&photo.mask);
         let sprites: &[String] = match &self.sprites.source {
             SpriteSource::Noise(_) => &[],
             SpriteSource::Sheet(file) => std::slice::from_ref(file),

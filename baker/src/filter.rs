@@ -104,8 +104,13 @@ fn convolve_rows(image: &Image, weights: &[f32], edge: Edge) -> Image {
 ///
 /// D. P. Mitchell, A. N. Netravali, "Reconstruction Filters in Computer Graphics", SIGGRAPH 1988, eq. 8.
 pub(crate) fn resample(image: &Image, width: u32, height: u32) -> Image {
-    let rows = mix_rows(image, &mitchell_taps(image.height, height), Edge::Mirror);
-    resample_rows(&rows, width)
+    resample_to(image, width, height, Edge::Mirror)
+}
+
+/// The same of an image that tiles or is mirrored.
+pub(crate) fn resample_to(image: &Image, width: u32, height: u32, edge: Edge) -> Image {
+    let rows = mix_rows(image, &mitchell_taps(image.height, height), edge);
+    resample_rows(&rows, width, edge)
 }
 
 /// First of the source texels (or rows) that an output takes from, and their weights.
@@ -127,7 +132,7 @@ fn mix_rows(image: &Image, taps: &[Taps], edge: Edge) -> Image {
     out
 }
 
-fn resample_rows(image: &Image, width: u32) -> Image {
+fn resample_rows(image: &Image, width: u32, edge: Edge) -> Image {
     let from = image.width as usize;
     let taps = mitchell_taps(image.width, width);
     let mut out = Image::new(width, image.height, 1);
@@ -140,7 +145,7 @@ fn resample_rows(image: &Image, width: u32) -> Image {
     let pad = taps.iter().map(reach).max().unwrap_or(0).max(0);
     rows.for_each(|(out, row)| {
         let reach = -pad..from as isize + pad;
-        let padded: Vec<f32> = reach.map(|i| row[Edge::Mirror.index(i, from)]).collect();
+        let padded: Vec<f32> = reach.map(|i| row[edge.index(i, from)]).collect();
         for (value, (start, weights)) in out.iter_mut().zip(&taps) {
             let reached = &padded[(start + pad) as usize..];
             *value = weights.iter().zip(reached).map(|(w, v)| w * v).sum();
@@ -186,19 +191,25 @@ pub(crate) fn standardise(image: &mut Image, least: f32) {
     }
 }
 
-/// Brings a field to 0..1 with a given mean: outliers are bent in softly at `outlier` standard
-/// deviations (one lone peak would otherwise use up the range), the range from the quantile
-/// `low` to the maximum becomes 0..1, and a power makes the mean.
+/// Brings a field to 0..1 with a given mean: [`stretch`], then [`raise_to_mean`].
 ///
 /// A field without contrast, but for rounding, becomes its mean everywhere.
-///
-/// The power is found by bisection on a histogram of 4096 bins, to 1/1000 of the mean.
 pub(crate) fn calibrate(image: &mut Image, low: f32, outlier: f32, mean: f32) {
+    if stretch(image, low, outlier) {
+        raise_to_mean(image, mean);
+    } else {
+        image.texels.fill(mean);
+    }
+}
+
+/// Brings a field to 0..1: outliers are bent in softly at `outlier` standard
+/// deviations (one lone peak would otherwise use up the range), the range from the quantile
+/// `low` to the maximum becomes 0..1. Says no of a field without contrast, but for rounding.
+pub(crate) fn stretch(image: &mut Image, low: f32, outlier: f32) -> bool {
     let largest = image.texels.iter().fold(0.0_f32, |m, v| m.max(v.abs()));
     let least = (LEAST_SPREAD * largest).max(f32::MIN_POSITIVE);
     if image.mean_and_spread(0).1 < least {
-        image.texels.fill(mean);
-        return;
+        return false;
     }
     standardise(image, least);
     for value in &mut image.texels {
@@ -210,13 +221,18 @@ pub(crate) fn calibrate(image: &mut Image, low: f32, outlier: f32, mean: f32) {
         image.texels.iter().copied().fold(f32::MIN, f32::max),
     );
     if to - from < LEAST_RANGE {
-        image.texels.fill(mean);
-        return;
+        return false;
     }
     let scale = 1.0 / (to - from);
     for value in &mut image.texels {
         *value = ((*value - from) * scale).clamp(0.0, 1.0);
     }
+    true
+}
+
+/// Gives values of 0..1 a mean, by the one power that does: it is found by bisection on a histogram of 4096 bins, to 1/1000 of
+/// the mean.
+pub(crate) fn raise_to_mean(image: &mut Image, mean: f32) {
     let power = power_for_mean(&image.texels, mean);
     image.texels.par_chunks_mut(4096).for_each(|chunk| {
         for value in chunk {

@@ -23,7 +23,7 @@ pub fn photo(bytes: &[u8]) {
             image::ImageReader::with_format(std::io::Cursor::new(bytes), format).into_dimensions()
         && fits(size.0, size.1).is_ok()
     {
-        drop(load::decode(bytes, "fuzz"));
+        drop(load::decode(bytes, "fuzz", load::Reading::Photograph));
     }
 }
 

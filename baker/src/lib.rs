@@ -48,7 +48,9 @@ mod stream;
 mod sun;
 
 pub use bake::{Progress, bake, bake_from, cloud_field, skybox_faces, sources, sprite_sheet};
-pub use clouds::photo::{BUILT_IN_NAME as BUILT_IN_PHOTO, PhotoTile, photo_channel, photo_tile};
+pub use clouds::photo::{
+    BUILT_IN_NAME as BUILT_IN_PHOTO, PhotoFile, PhotoTile, photo_channel, photo_tile,
+};
 pub use error::{BakeError, Fault, RecipeError};
 pub use field::model::cloud_model;
 pub use inputs::Inputs;
@@ -59,7 +61,7 @@ pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
     BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound, FieldSettings,
     FlareSettings, GalaxySettings, GradientSettings, LayerSettings, LayersSettings, ModelSettings,
-    ModelSource, PhotoSettings, PlacedSprite, Resolved, SkySettings, SkyboxPicture, SkyboxSettings,
-    SpriteShape, SpriteSource, SpritesSettings, StarSettings, SunSettings,
+    ModelSource, PhotoRegion, PhotoSettings, PlacedSprite, Resolved, SkySettings, SkyboxPicture,
+    SkyboxSettings, SpriteShape, SpriteSource, SpritesSettings, StarSettings, SunSettings,
 };
 pub use sound::{recipe_key, verify};

@@ -21,7 +21,7 @@ use std::path::Path;
 use crate::error::{BakeError, too_long};
 use crate::inputs::read_limited;
 
-pub(crate) use photograph::{Photograph, decode};
+pub(crate) use photograph::{Photograph, Reading, decode};
 pub(crate) use sky::{MAX_RADIANCE, decode_sky};
 pub use stored::MAX_FILE_BYTES;
 pub use texture::{TextureFile, decode_texture};

@@ -2,6 +2,7 @@
 
 mod field;
 mod layers;
+mod photo;
 mod skybox;
 mod sprites;
 
@@ -17,8 +18,8 @@ use crate::error::RecipeError;
 use crate::recipe::tables::{Entry, Fractal, Sky};
 use crate::recipe::{Recipe, line_and_column};
 use crate::settings::{
-    CloudSettings, FbmSettings, FlareSettings, GalaxySettings, GradientSettings, PhotoSettings,
-    Resolved, SkySettings, StarSettings, SunSettings,
+    CloudSettings, FbmSettings, FlareSettings, GalaxySettings, GradientSettings, Resolved,
+    SkySettings, StarSettings, SunSettings,
 };
 
 /// Means of photo and of noise. The power that makes the mean sharpens what is thin and digs pits into what is thick: beyond
@@ -97,11 +98,7 @@ impl Recipe {
         let settings = CloudSettings {
             size,
             format: self.cloud_format(&c.format)?,
-            photo: PhotoSettings {
-                file: self.text_of("clouds.photo.file", &c.photo.file)?,
-                size,
-                mean: self.mean("clouds.photo.mean", &c.photo.mean, 0.37, SHAPE_MEANS)?,
-            },
+            photo: self.photo(size)?,
             noise: FractalNoise {
                 mean: self.mean("clouds.noise.mean", &c.noise.mean, noise.mean, SHAPE_MEANS)?,
                 ..self.fractal("clouds.noise", &c.noise, size, noise)?
@@ -119,7 +116,10 @@ impl Recipe {
                 power: self.real("clouds.gradient.power", &c.gradient.power, 2.0, 1.0, 2.0)?,
             },
         };
-        self.verify_amount(settings.photo.mean, settings.noise.mean)?;
+        // Of a tile that is taken as it is nobody knows the mean yet.
+        if let Some(mean) = settings.photo.mean {
+            self.verify_amount(mean, settings.noise.mean)?;
+        }
         Ok(settings)
     }
 
@@ -258,14 +258,6 @@ impl Recipe {
             Some("rgba8unorm" | "rgba8") => Ok(Format::Rgba8Unorm),
             Some("rgba16float" | "rgba16f") => Ok(Format::Rgba16Float),
             _ => Err(self.refuse("clouds.format", value, "\"rgba8unorm\" or \"rgba16float\"")),
-        }
-    }
-
-    fn text_of(&self, key: &str, entry: &Entry) -> Result<Option<String>, RecipeError> {
-        let Some(value) = entry else { return Ok(None) };
-        match value.get_ref().as_str() {
-            Some(text) if !text.is_empty() => Ok(Some(text.to_string())),
-            _ => Err(self.refuse(key, value, "the path of a photograph, as text")),
         }
     }
 

@@ -1,6 +1,7 @@
 //! What a bake needs to know, as plain data: the recipe after `resolve.rs` has checked it.
 
 mod field;
+mod photo;
 
 use welkin_pack::Format;
 use welkin_pack::manifest::FractalNoise;
@@ -9,6 +10,8 @@ pub use field::{
     BoxSettings, CloudLayerSettings, FieldBound, FieldSettings, ModelSettings, ModelSource,
     PlacedSprite,
 };
+
+pub use photo::{PhotoRegion, PhotoSettings};
 
 /// Everything a bake needs to know, checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,17 +61,6 @@ pub struct CloudSettings {
     pub detail: FractalNoise,
     /// Alpha channel.
     pub gradient: GradientSettings,
-}
-
-/// A cloud channel made from a photograph.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PhotoSettings {
-    /// File of a photograph; the built-in one if absent.
-    pub file: Option<String>,
-    /// Texels a side, a power of two.
-    pub size: u32,
-    /// Mean that the channel is calibrated to.
-    pub mean: f32,
 }
 
 /// The sunset gradient.

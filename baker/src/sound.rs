@@ -40,6 +40,7 @@ const KEYS: &[(&str, &str, &str)] = &[
     ("cloud-mean", "clouds.noise", "clouds.noise.mean"),
     ("cloud-mean", "clouds.detail", "clouds.detail.mean"),
     ("cloud-cover", "", "clouds.noise.mean"),
+    ("cloud-clear", "clouds.photo", "clouds.photo.levels"),
     ("cloud-spread", "clouds.photo", "clouds.photo.mean"),
     ("cloud-spread", "clouds.noise", "clouds.noise.mean"),
     ("cloud-spread", "clouds.detail", "clouds.detail.mean"),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 use image::ExtendedColorType;
-use welkin_baker::{PhotoTile, Recipe, photo_tile, read_photo};
+use welkin_baker::{PhotoFile, PhotoTile, Recipe, photo_tile, read_photo};
 use welkin_pack::texture::unorm8;
 
 use super::{file, interrupt, output, picture};
@@ -25,7 +25,11 @@ pub fn run(args: &PhotoArgs) -> Result<()> {
     let settings = Recipe::default().resolve(None)?.clouds.photo;
     let image = args.image.clone();
     let bytes = interrupt::unless_requested(move || read_photo(&image))??;
-    let tile = photo_tile(&bytes, &name, &settings)?;
+    let photograph = PhotoFile {
+        name: &name,
+        bytes: &bytes,
+    };
+    let tile = photo_tile(photograph, None, &settings)?;
     if let Some(note) = unused(&tile) {
         output::message(&format!("{name}: {note}"));
     }

@@ -17,16 +17,23 @@
 //! Most of the channel is near 0 and the thickest parts reach 1. The runtime magnifies it and multiplies
 //! its contrast by up to five, so it ends with a blur that leaves nothing sharper than a few texels.
 
+mod amount;
+mod cloudiness;
 mod cover;
+mod part;
+mod seam;
 #[cfg(test)]
 mod tests;
 
 use welkin_pack::Image;
 
-use crate::error::{BakeError, unfit};
+use cloudiness::cloudiness;
+use seam::{Blend, close, soften};
+
+use crate::error::{BakeError, unfit, unfit_size};
 use crate::filter::{self, Edge};
-use crate::load::{self, Photograph};
-use crate::settings::PhotoSettings;
+use crate::load::{self, Photograph, Reading};
+use crate::settings::{PhotoRegion, PhotoSettings};
 
 /// The photograph that is used when a recipe names none; assets-src/SOURCES.md says whose it is.
 #[cfg(feature = "photo")]
@@ -47,40 +54,8 @@ pub const BUILT_IN_NAME: &str = "built-in photograph";
 /// Share of the tile that is blended with the opposite side.
 const MARGIN: f32 = 0.25;
 
-/// Blur of the red/blue ratio, as a share of the working image: above a JPEG's chroma blocks.
-const RATIO_BLUR: f32 = 0.012;
-
-/// Blur that stands for the uneven light on the clouds, as a share of the working image.
-const LIGHT_BLUR: f32 = 0.11;
-
-/// Blur that measures the local contrast, as a share of the working image.
-const EVEN_BLUR: f32 = 0.12;
-
-/// Weight of the large shapes against the fine structure, which has weight 1.
-const SHAPE_WEIGHT: f32 = 1.2;
-
-/// The last blur: a mix of a narrow and a wide Gaussian, in texels of a tile of 512. The narrow one keeps
-/// the shapes of edges, the wide one takes part of the contrast from everything of a few texels.
-const SMOOTH_TEXELS: [f32; 2] = [1.8, 5.5];
-
-/// Weight of the narrow Gaussian.
-const NARROW_SHARE: f32 = 0.4;
-
 /// Least standard deviation of luminance, 0..1: less is a blank picture, whose noise would be stretched to clouds.
 const LEAST_CONTRAST: f32 = 1.0 / 255.0;
-
-/// Least standard deviation of the blurred ratio from that of the picture's own tint: one step of a byte at middle grey.
-/// Up to half of it is the rounding of the bytes; from there on the ratio counts more and more, and from here on fully.
-const LEAST_TINT: f32 = 1.0 / 255.0 / (0.5 + DARK);
-
-/// What is added to red and blue: a dark texel has no colour worth the name, and so its ratio stays near 1.
-const DARK: f32 = 1.0 / 32.0;
-
-/// Standard deviations that shapes and fine structure are divided by at least: one step of a byte.
-const LEAST_SPREAD: f32 = 1.0 / 255.0;
-
-/// The same of their sum, which is 1 and more in a picture that has either.
-const LEAST_SUM: f32 = 0.5;
 
 /// Contrast that has to be left of it when all that is finer than a few texels is gone.
 const LEAST_LEFT: f32 = 1.0 / 64.0;
@@ -90,6 +65,26 @@ const CLEAR: f32 = 0.05;
 
 /// Where outliers are bent in, in standard deviations.
 const OUTLIER: f32 = 8.0;
+
+/// The bytes of a picture, and its name for errors.
+#[derive(Clone, Copy, Debug)]
+pub struct PhotoFile<'a> {
+    /// What errors call it.
+    pub name: &'a str,
+    /// What is in it.
+    pub bytes: &'a [u8],
+}
+
+/// The channel of a photograph, and what was taken of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PhotoTile {
+    /// One channel, `settings.size` texels a side, 0..1, seamless.
+    pub channel: Image,
+    /// Columns and rows of the photograph, upright.
+    pub size: [u32; 2],
+    /// Left, top, width and height of the part that was used, in texels of the photograph.
+    pub region: [u32; 4],
+}
 
 /// A photograph made into a seamless cloud channel: one channel, `settings.size` texels a side, 0..1.
 ///
@@ -102,31 +97,36 @@ pub fn photo_channel(
     file_name: &str,
     settings: &PhotoSettings,
 ) -> Result<Image, BakeError> {
-    photo_tile(image_bytes, file_name, settings).map(|tile| tile.channel)
+    let picture = PhotoFile {
+        name: file_name,
+        bytes: image_bytes,
+    };
+    photo_tile(picture, None, settings).map(|tile| tile.channel)
 }
 
-/// The channel of a photograph, and what was taken of it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PhotoTile {
-    /// What [`photo_channel`] gives.
-    pub channel: Image,
-    /// Columns and rows of the photograph, upright.
-    pub size: [u32; 2],
-    /// Left, top, width and height of the part that was used, in texels of the photograph.
-    pub region: [u32; 4],
-}
-
-/// The same as [`photo_channel`], with what was taken of the photograph.
+/// The same as [`photo_channel`], with a mask and with what was taken of the photograph.
+///
+/// The mask is a picture as large as the photograph is when upright: where it is white there is cloud, where it is black none.
 ///
 /// # Errors
 /// As [`photo_channel`].
 pub fn photo_tile(
-    image_bytes: &[u8],
-    file_name: &str,
+    picture: PhotoFile,
+    mask: Option<PhotoFile>,
     settings: &PhotoSettings,
 ) -> Result<PhotoTile, BakeError> {
-    let photograph = load::decode(image_bytes, file_name)?;
-    tile(&photograph, file_name, settings)
+    let reading = if settings.as_is {
+        Reading::Values
+    } else {
+        Reading::Photograph
+    };
+    let mut photograph = load::decode(picture.bytes, picture.name, reading)?;
+    if let Some(mask) = mask {
+        let Photograph { colours, cover } = load::decode(mask.bytes, mask.name, Reading::Values)?;
+        let values = amount::values(&colours);
+        photograph.cover = Some(cover::mask(values, cover, &photograph, mask.name)?);
+    }
+    tile(&photograph, picture.name, settings)
 }
 
 fn tile(
@@ -134,42 +134,130 @@ fn tile(
     file: &str,
     settings: &PhotoSettings,
 ) -> Result<PhotoTile, BakeError> {
+    let colours = &photograph.colours;
+    let region = part::square(&settings.region, colours, file)?;
+    let channel = if settings.as_is {
+        as_is(photograph, region, file, settings)?
+    } else {
+        clouds(photograph, region, file, settings)?
+    };
+    verify_contrast(file, "contrast of its channel", &channel, LEAST_CONTRAST)?;
+    Ok(PhotoTile {
+        channel,
+        size: [colours.width, colours.height],
+        region,
+    })
+}
+
+/// The clouds of a photograph.
+fn clouds(
+    photograph: &Photograph,
+    region: [u32; 4],
+    file: &str,
+    settings: &PhotoSettings,
+) -> Result<Image, BakeError> {
     let size = settings.size;
     let margin = (size as f32 * MARGIN) as u32;
     let work = size + margin;
     let Photograph { colours, cover } = photograph;
-    let region = middle_square(colours);
-    let part = |image, channel| filter::resample(&cut(image, region, channel), work, work);
+    let part = |image, channel| filter::resample(&part::cut(image, region, channel), work, work);
     let mut rgb = [0, 1, 2].map(|channel| part(colours, channel));
+    rgb.iter_mut()
+        .for_each(|c| amount::level(c, settings.levels));
     let cover = cover.as_ref().map(|cover| cover::limited(part(cover, 0)));
     if let Some(cover) = &cover {
         rgb.iter_mut().for_each(|image| cover::fill(image, cover));
     }
-    let [red, green, blue] = rgb;
-    let luminance = filter::plane(work, work, |x, y| {
-        let i = red.index(x, y);
-        // Rec. 709 luma weights, ITU-R BT.709-6, item 3.2.
-        0.2126 * red.texels[i] + 0.7152 * green.texels[i] + 0.0722 * blue.texels[i]
-    });
-    let mut cloud = match &cover {
-        // An even cloud is fit for use if its outline is there.
-        Some(cover) if cover.mean_and_spread(0).1 >= LEAST_CONTRAST => {
-            cover::clear(cloudiness(&red, &blue, &luminance), cover)
-        }
-        _ => {
-            verify_contrast(file, "contrast", &luminance, LEAST_CONTRAST)?;
-            cloudiness(&red, &blue, &luminance)
+    let luminance = amount::luminance(&rgb);
+    let [red, _, blue] = &rgb;
+    // An even cloud is fit for use if its outline is there.
+    let outline = cover.as_ref().map_or(0.0, |c| c.mean_and_spread(0).1);
+    if outline < LEAST_CONTRAST {
+        verify_contrast(file, "contrast", &luminance, LEAST_CONTRAST)?;
+    }
+    let mut cloud = cloudiness(red, blue, &luminance, settings.flatten);
+    if settings.invert {
+        cloud.texels.iter_mut().for_each(|value| *value = -*value);
+    }
+    cloud = close(&cloud, size, margin, Blend::Variance);
+    if let Some(cover) = &cover {
+        cloud = cover::clear(cloud, &close(cover, size, margin, Blend::Range));
+    }
+    let mut channel = soften(&cloud, settings.sharpness);
+    verify_contrast(file, "contrast of its clouds", &channel, LEAST_LEFT)?;
+    // Only a tile that is taken as it is has none.
+    let mean = settings.mean.unwrap_or(PhotoSettings::MEAN);
+    if filter::stretch(&mut channel, CLEAR, OUTLIER) {
+        verify_share(file, &channel, mean)?;
+        filter::raise_to_mean(&mut channel, mean);
+        return Ok(channel);
+    }
+    channel.texels.fill(mean);
+    Ok(channel)
+}
+
+/// A tile that somebody has finished: values as they are stored, in another size.
+fn as_is(
+    photograph: &Photograph,
+    region: [u32; 4],
+    file: &str,
+    settings: &PhotoSettings,
+) -> Result<Image, BakeError> {
+    let Photograph { colours, cover } = photograph;
+    let whole = region == [0, 0, colours.width, colours.height];
+    if !whole && settings.region == PhotoRegion::Middle {
+        let expected = "as wide as high, since it is taken as it is; cut it, or give `region`";
+        let size = [colours.width, colours.height];
+        return Err(unfit_size(file, size, expected.to_string()));
+    }
+    // A whole tile goes on beyond its sides.
+    let edge = if whole { Edge::Wrap } else { Edge::Mirror };
+    let size = settings.size;
+    let scaled = |image: &Image| {
+        let part = part::cut(image, region, 0);
+        if part.width == size {
+            part
+        } else {
+            filter::resample_to(&part, size, size, edge)
         }
     };
-    cloud = soften(&close(&cloud, size, margin));
-    verify_contrast(file, "contrast of its clouds", &cloud, LEAST_LEFT)?;
-    filter::calibrate(&mut cloud, CLEAR, OUTLIER, settings.mean);
-    verify_contrast(file, "contrast of its channel", &cloud, LEAST_CONTRAST)?;
-    Ok(PhotoTile {
-        channel: cloud,
-        size: [colours.width, colours.height],
-        region,
-    })
+    let mut channel = scaled(&amount::values(colours));
+    amount::level(&mut channel, settings.levels);
+    for value in &mut channel.texels {
+        *value = value.clamp(0.0, 1.0);
+        if settings.invert {
+            *value = 1.0 - *value;
+        }
+    }
+    if let Some(cover) = cover {
+        let cover = cover::limited(scaled(cover));
+        let pairs = channel.texels.iter_mut().zip(&cover.texels);
+        pairs.for_each(|(value, cover)| *value *= cover);
+    }
+    if let Some(mean) = settings.mean {
+        verify_share(file, &channel, mean)?;
+        filter::raise_to_mean(&mut channel, mean);
+    }
+    Ok(channel)
+}
+
+/// Refuses values of which fewer are cloud than the mean asks for: since none is more than 1, the mean would come from what is
+/// less than a step of a byte.
+fn verify_share(file: &str, channel: &Image, mean: f32) -> Result<(), BakeError> {
+    let cloud = channel.texels.iter().filter(|v| **v >= LEAST_CONTRAST);
+    let share = cloud.count() as f32 / channel.texels.len() as f32;
+    if share >= mean {
+        return Ok(());
+    }
+    let expected = format!(
+        "at least {mean}, which is `clouds.photo.mean`; choose a picture that shows more clouds, or another mean"
+    );
+    Err(unfit(
+        file,
+        "share of texels with contrast",
+        format!("{share:.4}"),
+        expected,
+    ))
 }
 
 /// Refuses an image that is nearly constant.
@@ -185,121 +273,4 @@ fn verify_contrast(
     }
     let expected = format!("at least {least:.5}; choose a picture that shows clouds");
     Err(unfit(file, key, format!("{contrast:.5}"), expected))
-}
-
-/// The largest square in the middle: left, top, width, height.
-fn middle_square(picture: &Image) -> [u32; 4] {
-    let side = picture.width.min(picture.height);
-    [
-        (picture.width - side) / 2,
-        (picture.height - side) / 2,
-        side,
-        side,
-    ]
-}
-
-/// A part of one channel.
-fn cut(picture: &Image, [left, top, width, height]: [u32; 4], channel: usize) -> Image {
-    filter::plane(width, height, |x, y| {
-        picture.texels[picture.index(left + x, top + y) + channel]
-    })
-}
-
-/// Large shapes from the ratio of red to blue, fine structure from flattened luminance; mean 0, spread 1.
-fn cloudiness(red: &Image, blue: &Image, luminance: &Image) -> Image {
-    let (width, height) = (red.width, red.height);
-    let ratio = filter::plane(width, height, |x, y| {
-        let i = red.index(x, y);
-        (red.texels[i] + DARK) / (blue.texels[i] + DARK)
-    });
-    let weight = SHAPE_WEIGHT * colourfulness(red, blue, &ratio);
-    let mut shape = flatten(
-        &filter::wide_blur(&ratio, RATIO_BLUR * width as f32),
-        1.5 * LIGHT_BLUR,
-    );
-    let mut fine = flatten(luminance, LIGHT_BLUR);
-    filter::standardise(&mut shape, LEAST_SPREAD);
-    filter::standardise(&mut fine, LEAST_SPREAD);
-    let cloud = filter::plane(width, height, |x, y| {
-        let i = shape.index(x, y);
-        weight * shape.texels[i] + fine.texels[i]
-    });
-    even_out(&cloud)
-}
-
-/// 1 where the ratio of red to blue tells something, 0 where it is that of one tint but for the rounding of bytes: then red
-/// is everywhere the same share of blue, and what the ratio does follows from luminance.
-fn colourfulness(red: &Image, blue: &Image, ratio: &Image) -> f32 {
-    let sum = |of: fn(f64, f64) -> f64| {
-        let pairs = red.texels.iter().zip(&blue.texels);
-        pairs.map(|(&r, &b)| of(r.into(), b.into())).sum::<f64>()
-    };
-    // The share that fits best. Without any blue there is no ratio either.
-    let share = (sum(|r, b| r * b) / sum(|_, b| b * b).max(f64::MIN_POSITIVE)) as f32;
-    let off = filter::plane(ratio.width, ratio.height, |x, y| {
-        let i = ratio.index(x, y);
-        ratio.texels[i] - (share * blue.texels[i] + DARK) / (blue.texels[i] + DARK)
-    });
-    let blurred = filter::wide_blur(&off, RATIO_BLUR * ratio.width as f32);
-    let (_, spread) = blurred.mean_and_spread(0);
-    (2.0 * spread / LEAST_TINT - 1.0).clamp(0.0, 1.0)
-}
-
-fn soften(tile: &Image) -> Image {
-    let scale = tile.width as f32 / 512.0;
-    let [narrow, wide] =
-        SMOOTH_TEXELS.map(|sigma| filter::gaussian_blur(tile, sigma * scale, Edge::Wrap));
-    filter::plane(tile.width, tile.height, |x, y| {
-        let i = tile.index(x, y);
-        NARROW_SHARE * narrow.texels[i] + (1.0 - NARROW_SHARE) * wide.texels[i]
-    })
-}
-
-/// Divides by the local contrast, so that no part of the tile stands out and betrays the repetition.
-fn even_out(cloud: &Image) -> Image {
-    let square = filter::plane(cloud.width, cloud.height, |x, y| {
-        let value = cloud.texels[cloud.index(x, y)];
-        value * value
-    });
-    let variance = filter::wide_blur(&square, EVEN_BLUR * cloud.width as f32);
-    let mut even = filter::plane(cloud.width, cloud.height, |x, y| {
-        let i = cloud.index(x, y);
-        cloud.texels[i] / libm::sqrtf(variance.texels[i].max(0.0) + 1.0)
-    });
-    filter::standardise(&mut even, LEAST_SUM);
-    even
-}
-
-/// An image relative to its wide blur.
-fn flatten(image: &Image, share: f32) -> Image {
-    let light = filter::wide_blur(image, share * image.width as f32);
-    filter::plane(image.width, image.height, |x, y| {
-        let i = image.index(x, y);
-        image.texels[i] / light.texels[i].max(1.0 / 255.0) - 1.0
-    })
-}
-
-/// Cuts a tile of `size` texels whose first `margin` columns and rows are blended with those beyond its far sides.
-fn close(field: &Image, size: u32, margin: u32) -> Image {
-    let columns = filter::plane(size, field.height, |x, y| {
-        let near = field.texels[field.index(x, y)];
-        if x < margin {
-            blend(near, field.texels[field.index(x + size, y)], x, margin)
-        } else {
-            near
-        }
-    });
-    filter::plane(size, size, |x, y| {
-        let near = columns.texels[columns.index(x, y)];
-        if y < margin {
-            blend(near, columns.texels[columns.index(x, y + size)], y, margin)
-        } else {
-            near
-        }
-    })
-}
-
-fn blend(near: f32, far: f32, i: u32, margin: u32) -> f32 {
-    let w = filter::smoothstep(0.0, 1.0, (i as f32 + 0.5) / margin as f32);
-    (w * near + (1.0 - w) * far) / libm::sqrtf(w * w + (1.0 - w) * (1.0 - w))
 }

@@ -29,11 +29,20 @@ pub(crate) struct Photograph {
     pub cover: Option<Image>,
 }
 
+/// What the values of a picture are taken for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Reading {
+    /// A picture: its profile says what colours its values mean, and light is exposed.
+    Photograph,
+    /// Numbers: they are taken as they are stored.
+    Values,
+}
+
 /// Decodes a photograph. Its first bytes say what it is.
 ///
 /// An ICC profile, or a PNG's gamma, says what its values mean; without one they are sRGB. Light (Radiance HDR, OpenEXR, TIFF of floats) is
 /// exposed so that 1 % of the texels are white.
-pub(crate) fn decode(bytes: &[u8], file: &str) -> Result<Photograph, BakeError> {
+pub(crate) fn decode(bytes: &[u8], file: &str, reading: Reading) -> Result<Photograph, BakeError> {
     let fits = |width: u32, height: u32| {
         let is_side = |side| (MIN_SIDE..=MAX_SIDE).contains(&side);
         let texels = u64::from(width) * u64::from(height);
@@ -53,6 +62,7 @@ pub(crate) fn decode(bytes: &[u8], file: &str) -> Result<Photograph, BakeError> 
                 DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => light_of(picture),
                 picture => {
                     let profile = match icc {
+                        _ if reading == Reading::Values => None,
                         Some(icc) => icc::read(&icc, file)?,
                         None => colours::png_gamma(bytes, format),
                     };
@@ -65,7 +75,7 @@ pub(crate) fn decode(bytes: &[u8], file: &str) -> Result<Photograph, BakeError> 
             }
         }
     };
-    exposed(light, file)
+    exposed(light, file, reading)
 }
 
 /// Light times alpha, and alpha.
@@ -85,7 +95,7 @@ fn light_of(picture: DynamicImage) -> Image {
 }
 
 /// Light times cover, and cover, as a photograph.
-fn exposed(mut light: Image, file: &str) -> Result<Photograph, BakeError> {
+fn exposed(mut light: Image, file: &str, reading: Reading) -> Result<Photograph, BakeError> {
     sky::tame(&mut light, file)?;
     let (texels, _) = light.texels.as_chunks::<4>();
     let plain = |[r, g, b, a]: &[f32; 4]| {
@@ -93,6 +103,18 @@ fn exposed(mut light: Image, file: &str) -> Result<Photograph, BakeError> {
         [r, g, b].map(|v| v * whole)
     };
     let colours: Vec<f32> = texels.iter().flat_map(plain).collect();
+    let is_clear = texels.iter().any(|texel| texel[3] < 1.0);
+    let image = |channels, texels| Image {
+        width: light.width,
+        height: light.height,
+        channels,
+        texels,
+    };
+    let cover = is_clear.then(|| image(1, texels.iter().map(|texel| texel[3]).collect()));
+    if reading == Reading::Values {
+        let colours = image(3, colours);
+        return Ok(Photograph { colours, cover });
+    }
     let mut brightest: Vec<f32> = colours
         .chunks_exact(3)
         .map(|rgb| rgb[0].max(rgb[1]).max(rgb[2]))
@@ -107,16 +129,6 @@ fn exposed(mut light: Image, file: &str) -> Result<Photograph, BakeError> {
         let expected = "light in more than 1 % of its texels; choose a picture that shows clouds";
         return Err(unfit(file, "radiance", "0", expected));
     }
-    let image = |channels, texels| Image {
-        width: light.width,
-        height: light.height,
-        channels,
-        texels,
-    };
-    let is_clear = texels.iter().any(|texel| texel[3] < 1.0);
-    let cover = is_clear.then(|| image(1, texels.iter().map(|texel| texel[3]).collect()));
-    Ok(Photograph {
-        colours: image(3, colours::exposed(&colours, white)),
-        cover,
-    })
+    let colours = image(3, colours::exposed(&colours, white));
+    Ok(Photograph { colours, cover })
 }

@@ -12,6 +12,7 @@ mod methods;
 mod night;
 mod photo;
 mod photo_formats;
+mod photo_keys;
 mod rebake;
 mod recipe;
 mod skybox;

@@ -14,9 +14,9 @@ const PHOTO: &[u8] = include_bytes!("../../../assets-src/photos/god-rays-1024.pn
 
 fn settings() -> PhotoSettings {
     PhotoSettings {
-        file: None,
         size: 64,
-        mean: 0.16,
+        mean: Some(0.16),
+        ..PhotoSettings::default()
     }
 }
 

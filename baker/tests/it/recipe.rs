@@ -246,6 +246,72 @@ fn values_of_the_wrong_type_or_out_of_range_are_told_with_key_and_place() {
         ),
         ("clouds.photo.file = 4", "clouds.photo.file", "4", "path"),
         (
+            "clouds.photo.mask = \"\"",
+            "clouds.photo.mask",
+            "\"\"",
+            "path",
+        ),
+        (
+            "clouds.photo.as_is = 1",
+            "clouds.photo.as_is",
+            "1",
+            "true or false",
+        ),
+        (
+            "clouds.photo.invert = \"yes\"",
+            "clouds.photo.invert",
+            "\"yes\"",
+            "true or false",
+        ),
+        (
+            "clouds.photo.levels = [0.5, 0.4]",
+            "clouds.photo.levels",
+            "[0.5, 0.4]",
+            "black and white",
+        ),
+        (
+            "clouds.photo.levels = [0.0, nan]",
+            "clouds.photo.levels",
+            "nan",
+            "black and white",
+        ),
+        (
+            "clouds.photo.levels = 0.5",
+            "clouds.photo.levels",
+            "0.5",
+            "black and white",
+        ),
+        (
+            "clouds.photo.flatten = 1.5",
+            "clouds.photo.flatten",
+            "1.5",
+            "0 to 1",
+        ),
+        (
+            "clouds.photo.sharpness = 0.1",
+            "clouds.photo.sharpness",
+            "0.1",
+            "0.25 to 8",
+        ),
+        (
+            "clouds.photo.region = [0, 0, 63, 100]",
+            "clouds.photo.region",
+            "[0, 0, 63, 100]",
+            "64 or more",
+        ),
+        (
+            "clouds.photo.region = [0, -1, 100, 100]",
+            "clouds.photo.region",
+            "-1",
+            "left, top, width and height",
+        ),
+        (
+            "clouds.photo.region = [0, 0, 100]",
+            "clouds.photo.region",
+            "[0, 0, 100]",
+            "left, top, width and height",
+        ),
+        (
             "clouds.photo.mean = nan",
             "clouds.photo.mean",
             "nan",
@@ -485,6 +551,27 @@ fn values_of_the_wrong_type_or_out_of_range_are_told_with_key_and_place() {
             other => panic!("{text} gave {other:?}"),
         }
     }
+}
+
+#[test]
+fn a_finished_tile_has_no_keys_that_would_change_it_and_a_mean_only_if_one_is_given() {
+    for key in ["flatten", "sharpness"] {
+        let text = format!("[clouds.photo]\nas_is = true\n{key} = 1\n");
+        let error = resolve(&text).unwrap_err().to_string();
+        let begin = format!("sky.toml:3:{}: clouds.photo.{key} is 1", key.len() + 4);
+        assert!(
+            error.starts_with(&begin) && error.contains("as_is"),
+            "{error}"
+        );
+    }
+    let mean = |text: &str| resolve(text).unwrap().clouds.photo.mean;
+    assert_eq!(mean(""), Some(0.37));
+    assert_eq!(mean("clouds.photo.as_is = true"), None);
+    assert_eq!(
+        mean("clouds.photo = { as_is = true, mean = 0.5 }"),
+        Some(0.5)
+    );
+    assert!(resolve("clouds.photo = { as_is = true, mean = 0.7 }").is_err());
 }
 
 #[test]

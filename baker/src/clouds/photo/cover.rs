@@ -2,13 +2,37 @@
 
 use welkin_pack::Image;
 
+use crate::error::{BakeError, unfit_size};
 use crate::filter;
+use crate::load::Photograph;
 
 /// Blur that spreads colours into what does not count, as a share of the image.
 const FILL_BLUR: f32 = 0.05;
 
 /// Share of what counts in the blur below which no colour is known there.
 const LEAST_KNOWN: f32 = 1e-3;
+
+/// The cover of a photograph with a mask: values times the mask's own alpha and the photograph's.
+pub(super) fn mask(
+    mut values: Image,
+    alpha: Option<Image>,
+    photograph: &Photograph,
+    file: &str,
+) -> Result<Image, BakeError> {
+    let expected = &photograph.colours;
+    if (values.width, values.height) != (expected.width, expected.height) {
+        let expected = format!(
+            "{}x{}, as the photograph has upright; save it in that size",
+            expected.width, expected.height
+        );
+        return Err(unfit_size(file, [values.width, values.height], expected));
+    }
+    for factor in alpha.iter().chain(&photograph.cover) {
+        let pairs = values.texels.iter_mut().zip(&factor.texels);
+        pairs.for_each(|(value, factor)| *value *= factor);
+    }
+    Ok(limited(values))
+}
 
 /// Resampling overshoots; cover does not.
 pub(super) fn limited(mut cover: Image) -> Image {

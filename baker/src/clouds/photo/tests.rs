@@ -1,5 +1,7 @@
 //! Pictures that are hardly pictures: grey, of one tint, of two values, nearly constant.
 
+use super::cloudiness::{DARK, colourfulness};
+use super::part::cut;
 use super::*;
 use crate::stream::Stream;
 
@@ -7,9 +9,9 @@ const SIZE: u32 = 64;
 
 fn settings() -> PhotoSettings {
     PhotoSettings {
-        file: None,
         size: SIZE,
-        mean: 0.16,
+        mean: Some(0.16),
+        ..PhotoSettings::default()
     }
 }
 
@@ -44,11 +46,15 @@ fn nudged(picture: &Image) -> Image {
 }
 
 fn made(picture: &Image) -> Result<Image, BakeError> {
+    made_with(picture, &settings())
+}
+
+fn made_with(picture: &Image, settings: &PhotoSettings) -> Result<Image, BakeError> {
     let photograph = Photograph {
         colours: picture.clone(),
         cover: None,
     };
-    tile(&photograph, "p.png", &settings()).map(|tile| tile.channel)
+    tile(&photograph, "p.png", settings).map(|tile| tile.channel)
 }
 
 /// Correlation of two images of one channel.
@@ -122,12 +128,67 @@ fn hard_pictures() -> Vec<(String, Colour)> {
     all
 }
 
+/// Each picture with each of the settings that take another way.
+fn hard_cases() -> impl Iterator<Item = ((String, Colour), (&'static str, PhotoSettings))> {
+    (0..ways().len()).flat_map(|way| {
+        let pictures = hard_pictures().into_iter();
+        pictures.map(move |picture| (picture, ways().swap_remove(way)))
+    })
+}
+
+fn ways() -> Vec<(&'static str, PhotoSettings)> {
+    vec![
+        ("usual", settings()),
+        (
+            "as it is",
+            PhotoSettings {
+                as_is: true,
+                mean: None,
+                ..settings()
+            },
+        ),
+        (
+            "as it is, of a mean",
+            PhotoSettings {
+                as_is: true,
+                ..settings()
+            },
+        ),
+        (
+            "inverted, not flattened",
+            PhotoSettings {
+                invert: true,
+                flatten: 0.0,
+                ..settings()
+            },
+        ),
+        (
+            "levels, half flattened, sharp",
+            PhotoSettings {
+                levels: [0.4, 0.6],
+                flatten: 0.5,
+                sharpness: 8.0,
+                ..settings()
+            },
+        ),
+        (
+            "soft",
+            PhotoSettings {
+                sharpness: 0.25,
+                ..settings()
+            },
+        ),
+    ]
+}
+
 /// Rounding is a ten-millionth: where a millionth of every value changes the channel, it shows rounding.
 #[test]
 fn no_picture_becomes_a_pattern_of_its_rounding() {
     let mut refused = 0;
-    for (name, colour) in hard_pictures() {
+    for ((name, colour), (set, settings)) in hard_cases() {
+        let name = format!("{name}, {set}");
         let picture = picture(120, colour);
+        let made = |picture| made_with(picture, &settings);
         match (made(&picture), made(&nudged(&picture))) {
             (Ok(channel), Ok(nudged)) => {
                 assert!(

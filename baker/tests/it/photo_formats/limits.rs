@@ -2,10 +2,18 @@
 
 use image::codecs::jpeg::JpegEncoder;
 use image::{DynamicImage, ExtendedColorType, ImageFormat, RgbImage};
-use welkin_baker::photo_tile;
+use welkin_baker::{PhotoFile, PhotoTile, photo_tile};
 
 use super::files::exr;
 use super::{encoded, error, linear, png, settings, sky};
+
+fn tile(bytes: &[u8]) -> PhotoTile {
+    let picture = PhotoFile {
+        name: "large.png",
+        bytes,
+    };
+    photo_tile(picture, None, &settings()).unwrap()
+}
 
 #[test]
 fn a_single_texel_is_told_by_its_size() {
@@ -29,7 +37,7 @@ fn a_single_texel_is_told_by_its_size() {
 #[test]
 fn a_strip_of_a_horizon_is_taken_and_what_is_used_is_told() {
     let strip = sky(30_000, 80);
-    let tile = photo_tile(&png(&strip), "strip.png", &settings()).unwrap();
+    let tile = tile(&png(&strip));
     assert_eq!(
         (tile.size, tile.region),
         ([30_000, 80], [14_960, 0, 80, 80])
@@ -52,7 +60,7 @@ fn sixty_million_texels_are_taken() {
         .encode(large.as_raw(), width, height, ExtendedColorType::L8)
         .unwrap();
     drop(large);
-    let tile = photo_tile(&jpeg, "large.jpg", &settings()).unwrap();
+    let tile = tile(&jpeg);
     assert_eq!(tile.region, [1584, 0, 6336, 6336]);
 }
 

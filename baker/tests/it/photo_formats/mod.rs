@@ -18,9 +18,9 @@ use files::{exr, tiff};
 
 fn settings() -> PhotoSettings {
     PhotoSettings {
-        file: None,
         size: 64,
-        mean: 0.3,
+        mean: Some(0.3),
+        ..PhotoSettings::default()
     }
 }
 
