@@ -61,7 +61,8 @@ pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
     BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound, FieldSettings,
     FlareSettings, GalaxySettings, GradientSettings, LayerSettings, LayersSettings, ModelSettings,
-    ModelSource, PhotoRegion, PhotoSettings, PlacedSprite, Resolved, SkySettings, SkyboxPicture,
-    SkyboxSettings, SpriteShape, SpriteSource, SpritesSettings, StarSettings, SunSettings,
+    ModelSource, PhotoProjection, PhotoRegion, PhotoSettings, PlacedSprite, Resolved, SkySettings,
+    SkyboxPicture, SkyboxSettings, SpriteShape, SpriteSource, SpritesSettings, StarSettings,
+    SunSettings,
 };
 pub use sound::{recipe_key, verify};

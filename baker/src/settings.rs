@@ -11,7 +11,7 @@ pub use field::{
     PlacedSprite,
 };
 
-pub use photo::{PhotoRegion, PhotoSettings};
+pub use photo::{PhotoProjection, PhotoRegion, PhotoSettings};
 
 /// Everything a bake needs to know, checked.
 #[derive(Clone, Debug, PartialEq)]

@@ -20,15 +20,19 @@
 mod amount;
 mod cloudiness;
 mod cover;
+mod horizon;
 mod part;
+mod projection;
 mod seam;
 #[cfg(test)]
 mod tests;
+mod view;
 
 use welkin_pack::Image;
 
 use cloudiness::cloudiness;
 use seam::{Blend, close, soften};
+use view::View;
 
 use crate::error::{BakeError, unfit, unfit_size};
 use crate::filter::{self, Edge};
@@ -135,24 +139,24 @@ fn tile(
     settings: &PhotoSettings,
 ) -> Result<PhotoTile, BakeError> {
     let colours = &photograph.colours;
-    let region = part::square(&settings.region, colours, file)?;
+    let view = View::of(colours, file, settings)?;
     let channel = if settings.as_is {
-        as_is(photograph, region, file, settings)?
+        as_is(photograph, view.bounds(), file, settings)?
     } else {
-        clouds(photograph, region, file, settings)?
+        clouds(photograph, &view, file, settings)?
     };
     verify_contrast(file, "contrast of its channel", &channel, LEAST_CONTRAST)?;
     Ok(PhotoTile {
         channel,
         size: [colours.width, colours.height],
-        region,
+        region: view.bounds(),
     })
 }
 
 /// The clouds of a photograph.
 fn clouds(
     photograph: &Photograph,
-    region: [u32; 4],
+    view: &View,
     file: &str,
     settings: &PhotoSettings,
 ) -> Result<Image, BakeError> {
@@ -160,11 +164,12 @@ fn clouds(
     let margin = (size as f32 * MARGIN) as u32;
     let work = size + margin;
     let Photograph { colours, cover } = photograph;
-    let part = |image, channel| filter::resample(&part::cut(image, region, channel), work, work);
-    let mut rgb = [0, 1, 2].map(|channel| part(colours, channel));
+    let mut rgb = [0, 1, 2].map(|channel| view.taken(colours, channel, work));
     rgb.iter_mut()
         .for_each(|c| amount::level(c, settings.levels));
-    let cover = cover.as_ref().map(|cover| cover::limited(part(cover, 0)));
+    let cover = cover
+        .as_ref()
+        .map(|cover| cover::limited(view.taken(cover, 0, work)));
     if let Some(cover) = &cover {
         rgb.iter_mut().for_each(|image| cover::fill(image, cover));
     }

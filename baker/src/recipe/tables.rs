@@ -26,7 +26,9 @@ tables! {
         field: Option<Spanned<FieldTable>>,
     }
     Clouds { size, format, photo: Photo, noise: Fractal, detail: Fractal, gradient: Gradient }
-    Photo { file, mean, mask, as_is, invert, levels, flatten, sharpness, region }
+    Photo {
+        file, mean, mask, as_is, invert, levels, flatten, sharpness, region, projection, fov_deg, horizon,
+    }
     Fractal { cells, octaves, gain, mean }
     Gradient { power }
     Stars { size, count, magnitudes, brightest }

@@ -5,13 +5,20 @@ use toml::{Spanned, Value};
 use super::{Recipe, SHAPE_MEANS};
 use crate::error::RecipeError;
 use crate::recipe::tables::Entry;
-use crate::settings::{PhotoRegion, PhotoSettings};
+use crate::settings::{PhotoProjection, PhotoRegion, PhotoSettings};
 
 /// The smallest side of a region, in texels: less holds no cloud.
 const LEAST_SIDE: i64 = 64;
 
 /// Black and white are apart by at least this, ten steps of a byte: nearer ones would show nothing but rounding.
 const LEAST_LEVELS: f32 = 0.04;
+
+/// Angle across the longer side by default, in degrees: the main camera of a phone, which is as a lens of 26 mm before a frame
+/// of 34.6 x 26 mm.
+const FOV_DEG: f32 = 67.0;
+
+/// Where the horizon may be: far below a picture whose camera looks nearly straight up, or a little above one that looks down.
+const HORIZONS: [f32; 2] = [-1.0, 20.0];
 
 const FINISHED: &str =
     "none with `as_is = true`, which is for a finished tile; remove one of the two";
@@ -27,7 +34,12 @@ impl Recipe {
             PhotoSettings::MEAN,
             SHAPE_MEANS,
         )?;
-        for (name, entry) in [("flatten", &p.flatten), ("sharpness", &p.sharpness)] {
+        let shaping = [
+            ("flatten", &p.flatten),
+            ("sharpness", &p.sharpness),
+            ("projection", &p.projection),
+        ];
+        for (name, entry) in shaping {
             if let Some(value) = entry.as_ref().filter(|_| as_is) {
                 return Err(self.refuse(&format!("clouds.photo.{name}"), value, FINISHED));
             }
@@ -46,7 +58,68 @@ impl Recipe {
             flatten: real("flatten", &p.flatten, default.flatten, [0.0, 1.0])?,
             sharpness: real("sharpness", &p.sharpness, default.sharpness, [0.25, 8.0])?,
             region: self.region(&p.region)?,
+            projection: self.projection()?,
         })
+    }
+
+    fn projection(&self) -> Result<PhotoProjection, RecipeError> {
+        let p = &self.tables.clouds.photo;
+        let key = "clouds.photo.projection";
+        let name = p
+            .projection
+            .as_ref()
+            .map_or(Some("plan"), |value| value.get_ref().as_str());
+        let none_with = |key: &str, entry: &Entry, expected: &str| match entry {
+            Some(value) => Err(self.refuse(key, value, expected)),
+            None => Ok(()),
+        };
+        let fov_key = "clouds.photo.fov_deg";
+        match name {
+            Some("plan") => {
+                let expected = "none with `projection = \"plan\"`; remove one of the two";
+                none_with(fov_key, &p.fov_deg, expected)?;
+                none_with("clouds.photo.horizon", &p.horizon, expected)?;
+                Ok(PhotoProjection::Plan)
+            }
+            Some("perspective") => Ok(PhotoProjection::Perspective {
+                fov_rad: self.degrees(fov_key, &p.fov_deg, FOV_DEG, 5.0, 140.0)?,
+                horizon: self.horizon(&p.horizon)?,
+            }),
+            Some("equirect") => {
+                let expected = "none with a panorama, which has all azimuths; remove it";
+                none_with(fov_key, &p.fov_deg, expected)?;
+                Ok(PhotoProjection::Equirect {
+                    horizon: self.horizon(&p.horizon)?,
+                })
+            }
+            _ => {
+                let Some(value) = &p.projection else {
+                    return Ok(PhotoProjection::Plan);
+                };
+                let expected = "\"plan\", \"perspective\" or \"equirect\"";
+                Err(self.refuse(key, value, expected))
+            }
+        }
+    }
+
+    /// The share of the height, or nothing where it is to be found.
+    fn horizon(&self, entry: &Entry) -> Result<Option<f32>, RecipeError> {
+        match entry {
+            Some(value) if value.get_ref().as_str() == Some("auto") => Ok(None),
+            Some(value) if value.get_ref().is_str() => {
+                let expected = format!(
+                    "\"auto\", or a number from {} to {}",
+                    HORIZONS[0], HORIZONS[1]
+                );
+                Err(self.refuse("clouds.photo.horizon", value, expected))
+            }
+            None => Ok(None),
+            Some(_) => {
+                let [least, most] = HORIZONS;
+                let share = self.real("clouds.photo.horizon", entry, 0.5, least, most)?;
+                Ok(Some(share))
+            }
+        }
     }
 
     fn switch(&self, key: &str, entry: &Entry) -> Result<bool, RecipeError> {

@@ -23,6 +23,27 @@ pub struct PhotoSettings {
     pub sharpness: f32,
     /// The part that is used.
     pub region: PhotoRegion,
+    /// How the picture sees the layer of clouds.
+    pub projection: PhotoProjection,
+}
+
+/// How a picture sees the flat layer that the tile is a plan of. A horizon is its row as a share of the height from above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PhotoProjection {
+    /// As the tile is: every texel of the picture is as much of the layer.
+    Plan,
+    /// By a camera without roll.
+    Perspective {
+        /// Angle across the longer side, in radians.
+        fov_rad: f32,
+        /// The horizon; found if absent.
+        horizon: Option<f32>,
+    },
+    /// By a panorama of all azimuths, equirectangular.
+    Equirect {
+        /// The horizon; in the middle of a picture twice as wide as high, and at the lower edge of one four times as wide.
+        horizon: Option<f32>,
+    },
 }
 
 /// A part of a photograph; of one that is not square its middle is used.
@@ -53,6 +74,7 @@ impl Default for PhotoSettings {
             flatten: 1.0,
             sharpness: 1.0,
             region: PhotoRegion::Middle,
+            projection: PhotoProjection::Plan,
         }
     }
 }

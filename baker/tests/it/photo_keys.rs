@@ -9,7 +9,8 @@ use std::ops::ControlFlow;
 
 use image::{DynamicImage, GrayImage, ImageFormat, RgbImage};
 use welkin_baker::{
-    Inputs, PhotoFile, PhotoRegion, PhotoSettings, Recipe, bake_from, photo_channel, photo_tile,
+    Inputs, PhotoFile, PhotoProjection, PhotoRegion, PhotoSettings, Recipe, bake_from,
+    photo_channel, photo_tile,
 };
 use welkin_pack::Image;
 
@@ -257,6 +258,78 @@ fn a_mask_says_where_there_is_cloud() {
     );
 }
 
+/// A row of ground below a sky, and a panorama, as a camera and a stitcher give them.
+#[test]
+fn a_picture_of_a_camera_is_seen_from_below() {
+    let clouds = sky(400, 240);
+    let picture = RgbImage::from_fn(400, 300, |x, y| {
+        if y < 240 {
+            *clouds.get_pixel(x, y)
+        } else {
+            image::Rgb([60, 58, 30 + ((x * 7 + y * 3) % 20) as u8])
+        }
+    });
+    let tile = |bytes: &[u8], projection| {
+        let settings = PhotoSettings {
+            projection,
+            ..settings()
+        };
+        let file = PhotoFile {
+            name: "sky.png",
+            bytes,
+        };
+        photo_tile(file, None, &settings).map_err(|e| e.to_string())
+    };
+    let fov_rad = 1.2;
+    let found = PhotoProjection::Perspective {
+        fov_rad,
+        horizon: None,
+    };
+    let given = PhotoProjection::Perspective {
+        fov_rad,
+        horizon: Some(0.8),
+    };
+    let bytes = png(picture);
+    let [auto, by_hand] = [found, given].map(|projection| tile(&bytes, projection).unwrap());
+    assert_eq!(auto.region, by_hand.region);
+    let mut pairs = auto.channel.texels.iter().zip(&by_hand.channel.texels);
+    assert!(pairs.all(|(a, b)| (a - b).abs() < 1e-3));
+    // 15 degrees above the horizon, and no lower: 86 rows.
+    let [_, top, _, height] = auto.region;
+    assert!(
+        top < 60 && (130..=154).contains(&(top + height)),
+        "{:?}",
+        auto.region
+    );
+    assert!(auto.channel != made(&bytes, &settings()));
+
+    let error = tile(&png(sky(300, 200)), found).unwrap_err();
+    assert!(
+        error.contains("horizon is not found") && error.contains("`clouds.photo.horizon`"),
+        "{error}"
+    );
+    let ground = PhotoProjection::Perspective {
+        fov_rad,
+        horizon: Some(0.1),
+    };
+    let error = tile(&bytes, ground).unwrap_err();
+    assert!(
+        error.contains("sky is none, expected 64 texels a side or more"),
+        "{error}"
+    );
+
+    let panorama = PhotoProjection::Equirect { horizon: None };
+    let around = tile(&png(sky(512, 256)), panorama).unwrap();
+    assert_eq!((around.region[0], around.region[1]), (0, 0));
+    let error = tile(&bytes, panorama).unwrap_err();
+    assert!(
+        error.contains("size is 400x300, expected a panorama twice as wide as high"),
+        "{error}"
+    );
+    let strip = PhotoProjection::Equirect { horizon: Some(0.9) };
+    tile(&png(sky(600, 150)), strip).unwrap();
+}
+
 #[test]
 fn inverted_clouds_are_holes() {
     let picture = png(sky(160, 160));
@@ -271,14 +344,10 @@ fn inverted_clouds_are_holes() {
 /// Light that falls from one side to the other.
 #[test]
 fn what_is_not_flattened_keeps_its_uneven_light() {
+    let even = sky(160, 160);
     let lit = RgbImage::from_fn(160, 160, |x, y| {
         let light = 0.3 + 0.7 * (y as f32 / 160.0);
-        image::Rgb(
-            sky(160, 160)
-                .get_pixel(x, y)
-                .0
-                .map(|v| (f32::from(v) * light) as u8),
-        )
+        image::Rgb(even.get_pixel(x, y).0.map(|v| (f32::from(v) * light) as u8))
     });
     let bytes = png(lit);
     let lower_less_upper = |flatten| {

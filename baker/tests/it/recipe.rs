@@ -1,6 +1,6 @@
 //! Recipes: defaults, and every kind of mistake with its place, key, finding and expectation.
 
-use welkin_baker::{DEFAULT_RECIPE, Recipe, RecipeError, Resolved};
+use welkin_baker::{DEFAULT_RECIPE, PhotoProjection, Recipe, RecipeError, Resolved};
 use welkin_pack::Format;
 
 fn resolve(text: &str) -> Result<Resolved, RecipeError> {
@@ -550,6 +550,82 @@ fn values_of_the_wrong_type_or_out_of_range_are_told_with_key_and_place() {
             }
             other => panic!("{text} gave {other:?}"),
         }
+    }
+}
+
+#[test]
+fn projections_have_the_keys_that_they_need() {
+    let of = |keys: &str| resolve(&format!("clouds.photo = {{ {keys} }}"));
+    let projection = |keys: &str| of(keys).unwrap().clouds.photo.projection;
+    let fov = |deg: f32| deg * (std::f32::consts::PI / 180.0);
+    for (keys, expected) in [
+        ("", PhotoProjection::Plan),
+        ("projection = \"plan\"", PhotoProjection::Plan),
+        (
+            "projection = \"perspective\"",
+            PhotoProjection::Perspective {
+                fov_rad: fov(67.0),
+                horizon: None,
+            },
+        ),
+        (
+            "projection = \"perspective\", fov_deg = 80, horizon = 1.25",
+            PhotoProjection::Perspective {
+                fov_rad: fov(80.0),
+                horizon: Some(1.25),
+            },
+        ),
+        (
+            "projection = \"perspective\", horizon = \"auto\"",
+            PhotoProjection::Perspective {
+                fov_rad: fov(67.0),
+                horizon: None,
+            },
+        ),
+        (
+            "projection = \"equirect\", horizon = 1",
+            PhotoProjection::Equirect { horizon: Some(1.0) },
+        ),
+    ] {
+        assert_eq!(projection(keys), expected, "{keys}");
+    }
+    for (keys, expected) in [
+        (
+            "projection = \"fisheye\"",
+            "expected \"plan\", \"perspective\" or \"equirect\"",
+        ),
+        ("projection = 1", "expected \"plan\""),
+        (
+            "projection = \"perspective\", fov_deg = 200",
+            "expected a number from 5 to 140",
+        ),
+        (
+            "projection = \"perspective\", horizon = \"low\"",
+            "expected \"auto\", or a number from -1 to 20",
+        ),
+        (
+            "projection = \"perspective\", horizon = 30",
+            "expected a number from -1 to 20",
+        ),
+        (
+            "projection = \"equirect\", fov_deg = 60",
+            "clouds.photo.fov_deg is 60, expected none with a panorama",
+        ),
+        (
+            "fov_deg = 60",
+            "clouds.photo.fov_deg is 60, expected none with `projection",
+        ),
+        (
+            "horizon = 0.5",
+            "clouds.photo.horizon is 0.5, expected none with `projection",
+        ),
+        (
+            "as_is = true, projection = \"plan\"",
+            "clouds.photo.projection is \"plan\", expected none with `as_is",
+        ),
+    ] {
+        let error = of(keys).unwrap_err().to_string();
+        assert!(error.contains(expected), "{keys}: {error}");
     }
 }
 

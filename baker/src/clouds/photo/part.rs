@@ -12,12 +12,21 @@ pub(super) fn square(
     picture: &Image,
     file: &str,
 ) -> Result<[u32; 4], BakeError> {
+    whole(region, picture, file).map(middle)
+}
+
+/// All that may be used.
+pub(super) fn whole(
+    region: &PhotoRegion,
+    picture: &Image,
+    file: &str,
+) -> Result<[u32; 4], BakeError> {
     let PhotoRegion::Part(part) = region else {
-        return Ok(middle([0, 0, picture.width, picture.height]));
+        return Ok([0, 0, picture.width, picture.height]);
     };
     let [left, top, width, height] = part.map(u64::from);
     if left + width <= picture.width.into() && top + height <= picture.height.into() {
-        return Ok(middle(*part));
+        return Ok(*part);
     }
     let found = format!("{width}x{height} at {left}, {top}");
     let expected = format!(
