@@ -49,7 +49,8 @@ mod sun;
 
 pub use bake::{Progress, bake, bake_from, cloud_field, skybox_faces, sources, sprite_sheet};
 pub use clouds::photo::{
-    BUILT_IN_NAME as BUILT_IN_PHOTO, PhotoFile, PhotoTile, photo_channel, photo_tile,
+    BUILT_IN_NAME as BUILT_IN_PHOTO, PhotoFile, PhotoTile, built_in_photo, photo_channel,
+    photo_tile,
 };
 pub use error::{BakeError, Fault, RecipeError};
 pub use field::model::cloud_model;

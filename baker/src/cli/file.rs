@@ -10,6 +10,12 @@ use super::{interrupt, output};
 
 /// Before anything slow begins: that the name says the format, and that nothing that is read is written over.
 pub fn verify_png(file: &Path, input: &Path) -> Result<()> {
+    verify_png_name(file)?;
+    Ok(verify_apart(&[input], &[file])?)
+}
+
+/// That the name says the format.
+pub fn verify_png_name(file: &Path) -> Result<()> {
     let ending = file.extension().and_then(|e| e.to_str());
     if !ending.is_some_and(|e| e.eq_ignore_ascii_case("png")) {
         bail!(
@@ -17,7 +23,7 @@ pub fn verify_png(file: &Path, input: &Path) -> Result<()> {
             file.display()
         );
     }
-    Ok(verify_apart(&[input], &[file])?)
+    Ok(())
 }
 
 /// Writes the file.

@@ -12,6 +12,7 @@ mod model;
 mod output;
 mod page;
 mod photo;
+mod photo_sheet;
 mod picture;
 mod preview;
 mod sheet;

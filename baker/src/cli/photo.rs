@@ -1,44 +1,118 @@
-//! `welkin photo`: a photograph made into a seamless cloud channel, with the default recipe's settings.
+//! `welkin photo`: a photograph made into a seamless cloud channel, with the settings of a recipe or of the default one.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use clap::Args;
 use image::ExtendedColorType;
-use welkin_baker::{PhotoFile, PhotoTile, Recipe, photo_tile, read_photo};
+use welkin_baker::{
+    BUILT_IN_PHOTO, PhotoFile, PhotoSettings, PhotoTile, Recipe, built_in_photo, photo_tile,
+    read_photo,
+};
+use welkin_pack::place::verify_apart;
 use welkin_pack::texture::unorm8;
 
-use super::{file, interrupt, output, picture};
+use super::{file, input, interrupt, output, photo_sheet, picture};
 
 #[derive(Debug, Args)]
 pub struct PhotoArgs {
-    /// Photograph of thin clouds: PNG, JPEG, TIFF, WebP, Radiance HDR or OpenEXR
-    image: PathBuf,
+    /// Photograph of clouds: PNG, JPEG, TIFF, WebP, Radiance HDR or OpenEXR; that of the recipe if left out
+    #[arg(required_unless_present = "recipe")]
+    image: Option<PathBuf>,
+    /// Recipe whose [clouds.photo] is used
+    #[arg(short, long, value_name = "RECIPE.toml")]
+    recipe: Option<PathBuf>,
     /// 8-bit grey PNG to write; a file of that name is replaced
-    #[arg(short, long, value_name = "TILE.png")]
-    output: PathBuf,
+    #[arg(
+        short,
+        long,
+        value_name = "TILE.png",
+        required_unless_present = "sheet"
+    )]
+    output: Option<PathBuf>,
+    /// Sheet to write: photograph with the part that is used, plan, tile, four tiles, histogram; a file of that name is replaced
+    #[arg(short, long, value_name = "SHEET.png")]
+    sheet: Option<PathBuf>,
 }
 
 pub fn run(args: &PhotoArgs) -> Result<()> {
-    file::verify_png(&args.output, &args.image)?;
-    let name = args.image.display().to_string();
-    let settings = Recipe::default().resolve(None)?.clouds.photo;
-    let image = args.image.clone();
-    let bytes = interrupt::unless_requested(move || read_photo(&image))??;
-    let photograph = PhotoFile {
-        name: &name,
-        bytes: &bytes,
+    let recipe = match &args.recipe {
+        Some(path) => input::recipe(path)?,
+        None => Recipe::default(),
     };
-    let tile = photo_tile(photograph, None, &settings)?;
+    let settings = recipe.resolve(None)?.clouds.photo;
+    let folder = args.recipe.as_deref().and_then(Path::parent);
+    let beside = |file: &String| folder.map_or(PathBuf::from(file), |folder| folder.join(file));
+    let image = args
+        .image
+        .clone()
+        .or_else(|| settings.file.as_ref().map(beside));
+    let mask = settings.mask.as_ref().map(beside);
+    verify_places(args, [&image, &mask, &args.recipe])?;
+    let name = image.as_ref().map(|image| image.display().to_string());
+    let tile = made(image, mask, &settings)?;
     if let Some(note) = unused(&tile) {
-        output::message(&format!("{name}: {note}"));
+        output::message(&format!(
+            "{}: {note}",
+            name.as_deref().unwrap_or(BUILT_IN_PHOTO)
+        ));
     }
-    let tile = tile.channel;
-    let grey: Vec<u8> = tile.texels.iter().copied().map(unorm8).collect();
-    file::write(
-        &args.output,
-        &picture::png(tile.width, tile.height, ExtendedColorType::L8, &grey)?,
-    )
+    if let Some(path) = &args.output {
+        let grey: Vec<u8> = tile.channel.texels.iter().copied().map(unorm8).collect();
+        let size = tile.channel.width;
+        file::write(
+            path,
+            &picture::png(size, size, ExtendedColorType::L8, &grey)?,
+        )?;
+    }
+    match &args.sheet {
+        Some(path) => file::write(path, &photo_sheet::png(&tile, &settings)?),
+        None => Ok(()),
+    }
+}
+
+/// Nothing that is read is written over, nor one output over the other.
+fn verify_places(args: &PhotoArgs, read: [&Option<PathBuf>; 3]) -> Result<()> {
+    let read: Vec<&Path> = read.into_iter().flatten().map(PathBuf::as_path).collect();
+    let outputs = || {
+        [&args.output, &args.sheet]
+            .into_iter()
+            .flatten()
+            .map(PathBuf::as_path)
+    };
+    for output in outputs() {
+        file::verify_png_name(output)?;
+    }
+    Ok(verify_apart(&read, &outputs().collect::<Vec<&Path>>())?)
+}
+
+fn made(
+    image: Option<PathBuf>,
+    mask: Option<PathBuf>,
+    settings: &PhotoSettings,
+) -> Result<PhotoTile> {
+    let read = |path: PathBuf| -> Result<(String, Vec<u8>)> {
+        let name = path.display().to_string();
+        Ok((
+            name,
+            interrupt::unless_requested(move || read_photo(&path))??,
+        ))
+    };
+    let (image, mask) = (image.map(read).transpose()?, mask.map(read).transpose()?);
+    let picture = match (&image, built_in_photo()) {
+        (Some((name, bytes)), _) => PhotoFile { name, bytes },
+        (None, Some(bytes)) => PhotoFile {
+            name: BUILT_IN_PHOTO,
+            bytes,
+        },
+        (None, None) => {
+            return Err(anyhow!(
+                "{BUILT_IN_PHOTO}: is not compiled in; name a photograph"
+            ));
+        }
+    };
+    let mask = mask.as_ref().map(|(name, bytes)| PhotoFile { name, bytes });
+    Ok(photo_tile(picture, mask, settings)?)
 }
 
 /// What of the photograph is not in the tile.

@@ -55,6 +55,11 @@ pub(crate) const BUILT_IN_BLAKE3: &str =
 /// The name of the built-in photograph in errors and, without the feature `photo`, among the files in memory.
 pub const BUILT_IN_NAME: &str = "built-in photograph";
 
+/// The bytes of the built-in photograph, if it is compiled in.
+pub fn built_in_photo() -> Option<&'static [u8]> {
+    BUILT_IN
+}
+
 /// Share of the tile that is blended with the opposite side.
 const MARGIN: f32 = 0.25;
 
@@ -88,6 +93,14 @@ pub struct PhotoTile {
     pub size: [u32; 2],
     /// Left, top, width and height of the part that was used, in texels of the photograph.
     pub region: [u32; 4],
+    /// Points of the outline of the square that was used, close to each other, in texels of the photograph.
+    pub outline: Vec<[f32; 2]>,
+    /// Red, green and blue of the photograph, upright, 0..1, encoded as sRGB.
+    pub picture: Image,
+    /// How much of it counts, by its alpha and its mask; all if absent.
+    pub cover: Option<Image>,
+    /// Red, green and blue of the square, as the layer of clouds is seen from below.
+    pub plan: Image,
 }
 
 /// A photograph made into a seamless cloud channel: one channel, `settings.size` texels a side, 0..1.
@@ -130,27 +143,44 @@ pub fn photo_tile(
         let values = amount::values(&colours);
         photograph.cover = Some(cover::mask(values, cover, &photograph, mask.name)?);
     }
-    tile(&photograph, picture.name, settings)
+    tile(photograph, picture.name, settings)
 }
 
 fn tile(
-    photograph: &Photograph,
+    photograph: Photograph,
     file: &str,
     settings: &PhotoSettings,
 ) -> Result<PhotoTile, BakeError> {
     let colours = &photograph.colours;
     let view = View::of(colours, file, settings)?;
     let channel = if settings.as_is {
-        as_is(photograph, view.bounds(), file, settings)?
+        as_is(&photograph, view.bounds(), file, settings)?
     } else {
-        clouds(photograph, &view, file, settings)?
+        clouds(&photograph, &view, file, settings)?
     };
     verify_contrast(file, "contrast of its channel", &channel, LEAST_CONTRAST)?;
     Ok(PhotoTile {
         channel,
         size: [colours.width, colours.height],
         region: view.bounds(),
+        outline: view.outline(),
+        plan: plan(colours, &view, settings.size),
+        picture: photograph.colours,
+        cover: photograph.cover,
     })
+}
+
+/// Three channels of the square.
+fn plan(colours: &Image, view: &View, size: u32) -> Image {
+    let planes = [0, 1, 2].map(|channel| view.taken(colours, channel, size));
+    let mut plan = Image::new(size, size, 3);
+    for (i, texel) in plan.texels.chunks_exact_mut(3).enumerate() {
+        let values = planes
+            .each_ref()
+            .map(|plane| plane.texels[i].clamp(0.0, 1.0));
+        texel.copy_from_slice(&values);
+    }
+    plan
 }
 
 /// The clouds of a photograph.

@@ -54,7 +54,7 @@ fn made_with(picture: &Image, settings: &PhotoSettings) -> Result<Image, BakeErr
         colours: picture.clone(),
         cover: None,
     };
-    tile(&photograph, "p.png", settings).map(|tile| tile.channel)
+    tile(photograph, "p.png", settings).map(|tile| tile.channel)
 }
 
 /// Correlation of two images of one channel.

@@ -11,6 +11,9 @@ use crate::settings::{PhotoProjection, PhotoSettings};
 /// The smallest side of the part of a picture that shows the square, in texels: less holds no cloud.
 const LEAST_SIDE: u32 = 64;
 
+/// Points a side of the outline.
+const OUTLINE: u32 = 512;
+
 /// How the square of a photograph is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum View {
@@ -75,6 +78,21 @@ impl View {
                 projection::unprojected(image, channel, camera, square, size)
             }
         }
+    }
+
+    /// Points of the picture on the outline of the square.
+    pub fn outline(&self) -> Vec<[f32; 2]> {
+        let share = (0..OUTLINE).map(|i| (f64::from(i) + 0.5) / f64::from(OUTLINE));
+        let edges = share.flat_map(|t| [[t, 0.0], [t, 1.0], [0.0, t], [1.0, t]]);
+        let place = |uv: [f64; 2]| match self {
+            View::Flat([left, top, width, height]) => Some([
+                f64::from(*left) + f64::from(*width) * uv[0],
+                f64::from(*top) + f64::from(*height) * uv[1],
+            ]),
+            View::Projected { camera, square, .. } => camera.seen(square.at(uv)),
+        };
+        let seen = edges.filter_map(place);
+        seen.map(|place| place.map(|v| v as f32)).collect()
     }
 
     /// The part of the picture that is used: left, top, width, height.

@@ -194,6 +194,71 @@ fn without_an_end() {
 }
 
 #[test]
+fn a_recipe_says_how_and_the_sheet_shows_what_became_of_it() {
+    let desk = Desk::new();
+    fs::copy(god_rays(), desk.path("sky.png")).unwrap();
+    let mask = image::GrayImage::from_fn(1024, 1024, |x, _| {
+        image::Luma([if x < 700 { 255 } else { 0 }])
+    });
+    mask.save(desk.path("mask.png")).unwrap();
+    let text = "[clouds]\nsize = 128\n[clouds.photo]\nfile = \"sky.png\"\nmask = \"mask.png\"\nregion = [100, 50, 800, 700]\n";
+    let recipe = desk.write("sky.toml", text);
+    let (tile, sheet) = (desk.path("tile.png"), desk.path("sheet.png"));
+    let mut photo = welkin();
+    photo.arg("photo").arg("--recipe").arg(&recipe);
+    let done = run(photo.arg("-o").arg(&tile).arg("--sheet").arg(&sheet));
+    assert!(
+        done.stderr
+            .contains("used 700x700 at 150, 50 of 1024x1024, 47 %"),
+        "{done:?}"
+    );
+    done.done();
+    assert_eq!(image::open(&tile).unwrap().width(), 128);
+    let sheet_image = image::open(&sheet).unwrap().into_rgb8();
+    let outline = sheet_image
+        .pixels()
+        .filter(|p| p.0 == [255, 200, 0])
+        .count();
+    // Four sides of 131 pixels: the picture is 192 wide.
+    assert!((480..=530).contains(&outline), "{outline}");
+
+    // One that is named comes before the recipe's, whose mask then has to fit it.
+    image::RgbImage::from_fn(80, 80, |x, y| {
+        image::Rgb([(x * 3) as u8, (y * 2) as u8, 200])
+    })
+    .save(desk.path("other.png"))
+    .unwrap();
+    let other = run(welkin()
+        .arg("photo")
+        .arg(desk.path("other.png"))
+        .arg("-r")
+        .arg(&recipe)
+        .arg("-o")
+        .arg(&tile));
+    other.failed(1, &["mask.png: size is 1024x1024, expected 80x80"]);
+    for (output, parts) in [
+        ("sheet.jpg", ["sheet.jpg", "would be a PNG file"]),
+        ("mask.png", ["mask.png", "mask.png"]),
+        ("sky.png", ["sky.png", "sky.png"]),
+    ] {
+        let run = run(welkin()
+            .args(["photo", "-r"])
+            .arg(&recipe)
+            .arg("--sheet")
+            .arg(desk.path(output)));
+        run.failed(1, &parts);
+    }
+    // Without a recipe's photograph the built-in one.
+    let plain = desk.write("plain.toml", "clouds.size = 64\n");
+    run(welkin()
+        .args(["photo", "-r"])
+        .arg(&plain)
+        .arg("-s")
+        .arg(&sheet))
+    .done();
+}
+
+#[test]
 fn a_whole_one_becomes_a_tile_and_a_pack() {
     let desk = Desk::new();
     fs::copy(god_rays(), desk.path("sky.png")).unwrap();
