@@ -62,8 +62,8 @@ pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
     BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound, FieldSettings,
     FlareSettings, GalaxySettings, GradientSettings, LayerSettings, LayersSettings, ModelSettings,
-    ModelSource, PhotoProjection, PhotoRegion, PhotoSettings, PlacedSprite, Resolved, SkySettings,
-    SkyboxPicture, SkyboxSettings, SpriteShape, SpriteSource, SpritesSettings, StarSettings,
-    SunSettings,
+    ModelSource, PhotoProjection, PhotoRegion, PhotoSeam, PhotoSettings, PlacedSprite, Resolved,
+    SkySettings, SkyboxPicture, SkyboxSettings, SpriteShape, SpriteSource, SpritesSettings,
+    StarSettings, SunSettings,
 };
 pub use sound::{recipe_key, verify};

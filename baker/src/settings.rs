@@ -11,7 +11,7 @@ pub use field::{
     PlacedSprite,
 };
 
-pub use photo::{PhotoProjection, PhotoRegion, PhotoSettings};
+pub use photo::{PhotoProjection, PhotoRegion, PhotoSeam, PhotoSettings};
 
 /// Everything a bake needs to know, checked.
 #[derive(Clone, Debug, PartialEq)]

@@ -20,6 +20,8 @@
 mod amount;
 mod cloudiness;
 mod cover;
+mod cut;
+mod fourier;
 mod horizon;
 mod part;
 mod projection;
@@ -30,14 +32,14 @@ mod view;
 
 use welkin_pack::Image;
 
-use cloudiness::cloudiness;
+use cloudiness::{cloudiness, with_fine_structure};
 use seam::{Blend, close, soften};
 use view::View;
 
 use crate::error::{BakeError, unfit, unfit_size};
 use crate::filter::{self, Edge};
 use crate::load::{self, Photograph, Reading};
-use crate::settings::{PhotoRegion, PhotoSettings};
+use crate::settings::{PhotoRegion, PhotoSeam, PhotoSettings};
 
 /// The photograph that is used when a recipe names none; assets-src/SOURCES.md says whose it is.
 #[cfg(feature = "photo")]
@@ -68,6 +70,10 @@ const LEAST_CONTRAST: f32 = 1.0 / 255.0;
 
 /// Contrast that has to be left of it when all that is finer than a few texels is gone.
 const LEAST_LEFT: f32 = 1.0 / 64.0;
+
+/// Blur of a tile that was closed by a cut, in texels: the ratio of second to first differences of clouds whose energy falls by the third
+/// power of the wave number is then `1 / (sqrt(2) 0.75)`, and the rule `smooth` of `check` allows 1.
+const CUT_BLUR: f32 = 0.75;
 
 /// Share of the tile left quite clear.
 const CLEAR: f32 = 0.05;
@@ -210,15 +216,29 @@ fn clouds(
     if outline < LEAST_CONTRAST {
         verify_contrast(file, "contrast", &luminance, LEAST_CONTRAST)?;
     }
-    let mut cloud = cloudiness(red, blue, &luminance, settings.flatten);
+    let mut cloud = match settings.seam {
+        PhotoSeam::Blend => cloudiness(red, blue, &luminance, settings.flatten),
+        PhotoSeam::Cut => with_fine_structure(red, blue, &luminance, settings.flatten),
+    };
     if settings.invert {
         cloud.texels.iter_mut().for_each(|value| *value = -*value);
     }
-    cloud = close(&cloud, size, margin, Blend::Variance);
-    if let Some(cover) = &cover {
-        cloud = cover::clear(cloud, &close(cover, size, margin, Blend::Range));
-    }
-    let mut channel = soften(&cloud, settings.sharpness);
+    let mut channel = match settings.seam {
+        PhotoSeam::Blend => {
+            cloud = close(&cloud, size, margin, Blend::Variance);
+            if let Some(cover) = &cover {
+                cloud = cover::clear(cloud, &close(cover, size, margin, Blend::Range));
+            }
+            soften(&cloud, settings.sharpness)
+        }
+        PhotoSeam::Cut => {
+            if let Some(cover) = &cover {
+                cloud = cover::clear(cloud, cover);
+            }
+            let tile = cut::close(&cloud, size, margin);
+            filter::gaussian_blur(&tile, CUT_BLUR / settings.sharpness, Edge::Wrap)
+        }
+    };
     verify_contrast(file, "contrast of its clouds", &channel, LEAST_LEFT)?;
     // Only a tile that is taken as it is has none.
     let mean = settings.mean.unwrap_or(PhotoSettings::MEAN);

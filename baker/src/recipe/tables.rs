@@ -28,6 +28,7 @@ tables! {
     Clouds { size, format, photo: Photo, noise: Fractal, detail: Fractal, gradient: Gradient }
     Photo {
         file, mean, mask, as_is, invert, levels, flatten, sharpness, region, projection, fov_deg, horizon,
+        seam,
     }
     Fractal { cells, octaves, gain, mean }
     Gradient { power }

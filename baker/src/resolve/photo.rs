@@ -5,7 +5,7 @@ use toml::{Spanned, Value};
 use super::{Recipe, SHAPE_MEANS};
 use crate::error::RecipeError;
 use crate::recipe::tables::Entry;
-use crate::settings::{PhotoProjection, PhotoRegion, PhotoSettings};
+use crate::settings::{PhotoProjection, PhotoRegion, PhotoSeam, PhotoSettings};
 
 /// The smallest side of a region, in texels: less holds no cloud.
 const LEAST_SIDE: i64 = 64;
@@ -38,6 +38,7 @@ impl Recipe {
             ("flatten", &p.flatten),
             ("sharpness", &p.sharpness),
             ("projection", &p.projection),
+            ("seam", &p.seam),
         ];
         for (name, entry) in shaping {
             if let Some(value) = entry.as_ref().filter(|_| as_is) {
@@ -59,7 +60,19 @@ impl Recipe {
             sharpness: real("sharpness", &p.sharpness, default.sharpness, [0.25, 8.0])?,
             region: self.region(&p.region)?,
             projection: self.projection()?,
+            seam: self.seam(&p.seam)?,
         })
+    }
+
+    fn seam(&self, entry: &Entry) -> Result<PhotoSeam, RecipeError> {
+        let Some(value) = entry else {
+            return Ok(PhotoSeam::Blend);
+        };
+        match value.get_ref().as_str() {
+            Some("blend") => Ok(PhotoSeam::Blend),
+            Some("cut") => Ok(PhotoSeam::Cut),
+            _ => Err(self.refuse("clouds.photo.seam", value, "\"blend\" or \"cut\"")),
+        }
     }
 
     fn projection(&self) -> Result<PhotoProjection, RecipeError> {

@@ -25,6 +25,17 @@ pub struct PhotoSettings {
     pub region: PhotoRegion,
     /// How the picture sees the layer of clouds.
     pub projection: PhotoProjection,
+    /// How the tile is closed.
+    pub seam: PhotoSeam,
+}
+
+/// How opposite sides of a tile are made to meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PhotoSeam {
+    /// By a blend that keeps the variance, and a wide blur: large soft shapes.
+    Blend,
+    /// By a cut where they differ least, blended by its gradients: fine structure is kept.
+    Cut,
 }
 
 /// How a picture sees the flat layer that the tile is a plan of. A horizon is its row as a share of the height from above.
@@ -75,6 +86,7 @@ impl Default for PhotoSettings {
             sharpness: 1.0,
             region: PhotoRegion::Middle,
             projection: PhotoProjection::Plan,
+            seam: PhotoSeam::Blend,
         }
     }
 }

@@ -294,6 +294,12 @@ fn values_of_the_wrong_type_or_out_of_range_are_told_with_key_and_place() {
             "0.25 to 8",
         ),
         (
+            "clouds.photo.seam = \"sew\"",
+            "clouds.photo.seam",
+            "\"sew\"",
+            "\"blend\" or \"cut\"",
+        ),
+        (
             "clouds.photo.region = [0, 0, 63, 100]",
             "clouds.photo.region",
             "[0, 0, 63, 100]",

@@ -23,6 +23,15 @@ const LEAST_TINT: f32 = 1.0 / 255.0 / (0.5 + DARK);
 /// What is added to red and blue: a dark texel has no colour worth the name, and so its ratio stays near 1.
 pub(super) const DARK: f32 = 1.0 / 32.0;
 
+/// Blur that parts the large shapes of the ratio from the fine structure of luminance, as a share of the working image: three times
+/// that of the ratio, which leaves 0.95 of such waves.
+const JOIN_BLUR: f32 = 3.0 * RATIO_BLUR;
+
+/// Least spread of the waves that join luminance to the ratio, of a field of spread 1, and the largest factor between the two: luminance
+/// whose waves are weaker is noise.
+const LEAST_BAND: f32 = 0.05;
+const MOST_FACTOR: f32 = 4.0;
+
 /// Standard deviations that shapes and fine structure are divided by at least: one step of a byte.
 const LEAST_SPREAD: f32 = 1.0 / 255.0;
 
@@ -49,6 +58,45 @@ pub(super) fn cloudiness(red: &Image, blue: &Image, luminance: &Image, strength:
     let cloud = filter::plane(width, height, |x, y| {
         let i = shape.index(x, y);
         weight * shape.texels[i] + fine.texels[i]
+    });
+    even_out(&cloud, strength)
+}
+
+/// The same with the fine structure as strong as the picture has it: shapes finer than the ratio tells are those of luminance, with the
+/// factor that joins the two where both are known, so that the spectrum goes on as it was.
+pub(super) fn with_fine_structure(
+    red: &Image,
+    blue: &Image,
+    luminance: &Image,
+    strength: f32,
+) -> Image {
+    let (width, height) = (red.width, red.height);
+    let ratio = filter::plane(width, height, |x, y| {
+        let i = red.index(x, y);
+        (red.texels[i] + DARK) / (blue.texels[i] + DARK)
+    });
+    let weight = colourfulness(red, blue, &ratio);
+    let sigma = RATIO_BLUR * width as f32;
+    let light = 1.5 * LIGHT_BLUR;
+    let mut shape = flatten(&filter::wide_blur(&ratio, sigma), light, strength);
+    let mut fine = flatten(luminance, light, strength);
+    filter::standardise(&mut shape, LEAST_SPREAD);
+    filter::standardise(&mut fine, LEAST_SPREAD);
+    let join = JOIN_BLUR * width as f32;
+    let [shape_low, fine_low] = [&shape, &fine].map(|image| filter::wide_blur(image, join));
+    let band = |low: &Image| {
+        let lower = filter::wide_blur(low, 2.0 * join);
+        let difference = filter::plane(width, height, |x, y| {
+            let i = low.index(x, y);
+            low.texels[i] - lower.texels[i]
+        });
+        difference.mean_and_spread(0).1
+    };
+    let factor = (band(&shape_low) / band(&fine_low).max(LEAST_BAND)).min(MOST_FACTOR);
+    let cloud = filter::plane(width, height, |x, y| {
+        let i = shape.index(x, y);
+        let joined = shape_low.texels[i] + factor * (fine.texels[i] - fine_low.texels[i]);
+        weight * joined + (1.0 - weight) * fine.texels[i]
     });
     even_out(&cloud, strength)
 }

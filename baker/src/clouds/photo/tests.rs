@@ -172,6 +172,13 @@ fn ways() -> Vec<(&'static str, PhotoSettings)> {
             },
         ),
         (
+            "cut",
+            PhotoSettings {
+                seam: PhotoSeam::Cut,
+                ..settings()
+            },
+        ),
+        (
             "soft",
             PhotoSettings {
                 sharpness: 0.25,
