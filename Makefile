@@ -64,7 +64,9 @@ sky: gpu-tools ## Bake the default pack, check it, and draw pictures of every me
 	$(VIEW) render $(PACK) -o out/moonlight.png $(FRAME) --method lit --time 0.03 --cover 0.5 --azimuth 200 --elevation 34
 	$(VIEW) render $(PACK) -o out/rays.png $(FRAME) --method fbm --time 0.72 --cover 0.7 --azimuth 252 --elevation 12 --at 60 --rays 1
 	$(VIEW) render $(PACK) -o out/rain.png $(FRAME) --method lit --time 0.42 --cover 1 --density 0.6 --azimuth 40 --elevation 15 --rain 0.8
-	$(VIEW) render $(PACK) -o out/rainbow.png $(FRAME) --method lit --time 0.68 --cover 0.55 --azimuth 75 --elevation 16 --fov 75 --rain 0.6
+	$(VIEW) render $(PACK) -o out/rainbow.png $(FRAME) --method packed --time 0.715 --cover 0.65 --density 0.7 --azimuth 80 --elevation 16 --fov 70 --rain 0.6
+	$(VIEW) render $(PACK) -o out/sprites-among.png $(FRAME) --method sprites --time 0.6 --cover 0.5 --azimuth 300 --elevation 5 --up 1300
+	$(VIEW) render $(PACK) -o out/sprites-above.png $(FRAME) --method sprites --time 0.45 --cover 0.5 --azimuth 100 --elevation -12 --fov 75 --up 3400
 	$(VIEW) render $(PACK) -o out/lightning.png $(FRAME) --method lit --time 0.8 --cover 1 --density 0.8 --azimuth 40 --elevation 22 --at 10.02 --lightning 2,-2.5,10
 	$(VIEW) render $(PACK) -o out/panorama.png --equirect 1024 --method lit --time 0.742 --sunset 1 --cover 0.62
 	$(VIEW) render $(PACK) -o out/figure2.png $(FRAME) --cover 0.69 --height 1.0 --density 0 --sunset 0.72 --speed 0.1 --time 0.35 --azimuth 130 --elevation 28 --flare 0 --shading paper

@@ -43,12 +43,10 @@ pub fn run(args: &PhotoArgs) -> Result<()> {
     let settings = recipe.resolve(None)?.clouds.photo;
     let folder = args.recipe.as_deref().and_then(Path::parent);
     let beside = |file: &String| folder.map_or(PathBuf::from(file), |folder| folder.join(file));
-    let image = args
-        .image
-        .clone()
-        .or_else(|| settings.file.as_ref().map(beside));
+    let of_recipe = settings.file.as_ref().map(beside);
     let mask = settings.mask.as_ref().map(beside);
-    verify_places(args, [&image, &mask, &args.recipe])?;
+    verify_places(args, [&args.image, &of_recipe, &mask, &args.recipe])?;
+    let image = args.image.clone().or(of_recipe);
     let name = image.as_ref().map(|image| image.display().to_string());
     let tile = made(image, mask, &settings)?;
     if let Some(note) = unused(&tile) {
@@ -57,22 +55,21 @@ pub fn run(args: &PhotoArgs) -> Result<()> {
             name.as_deref().unwrap_or(BUILT_IN_PHOTO)
         ));
     }
-    if let Some(path) = &args.output {
-        let grey: Vec<u8> = tile.channel.texels.iter().copied().map(unorm8).collect();
-        let size = tile.channel.width;
-        file::write(
-            path,
-            &picture::png(size, size, ExtendedColorType::L8, &grey)?,
-        )?;
+    // Both are there before either is written.
+    let grey: Vec<u8> = tile.channel.texels.iter().copied().map(unorm8).collect();
+    let size = tile.channel.width;
+    let grey = picture::png(size, size, ExtendedColorType::L8, &grey)?;
+    if let Some(path) = &args.sheet {
+        file::write(path, &photo_sheet::png(&tile, &settings)?)?;
     }
-    match &args.sheet {
-        Some(path) => file::write(path, &photo_sheet::png(&tile, &settings)?),
+    match &args.output {
+        Some(path) => file::write(path, &grey),
         None => Ok(()),
     }
 }
 
-/// Nothing that is read is written over, nor one output over the other.
-fn verify_places(args: &PhotoArgs, read: [&Option<PathBuf>; 3]) -> Result<()> {
+/// Nothing that is named to be read is written over, nor one output over the other.
+fn verify_places(args: &PhotoArgs, read: [&Option<PathBuf>; 4]) -> Result<()> {
     let read: Vec<&Path> = read.into_iter().flatten().map(PathBuf::as_path).collect();
     let outputs = || {
         [&args.output, &args.sheet]

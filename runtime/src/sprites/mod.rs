@@ -111,7 +111,7 @@ const THICKNESS: [f32; 2] = [0.35, 1.5];
 /// Share of the phase function in what a sprite shows as a whole; rims show all of it.
 pub const PHASE: f32 = 0.08;
 /// Pixels of the screen that a texel of the sheet covers: clouds have no edges as sharp as a screen's.
-pub const SOFT: f32 = 1.6;
+pub const SOFT: f32 = 1.8;
 /// How far the near side of a sprite's body is before its middle, in half sides.
 pub const BULGE: f32 = 0.7;
 /// How much of the relief that is lit from the front shows in light from the side.

@@ -182,11 +182,12 @@ fn other_readers_find_the_same_clouds_and_no_fault() {
     assert_read_alike(&field_pack(&std::fs::read_to_string(cirrus).unwrap()));
 }
 
+/// Records of 48 bytes: with the eight of exposure that version 7 of the format added, 45 kB more than the 350 that were allowed before.
 #[test]
-fn the_default_field_takes_350_kilobytes_at_most() {
+fn the_default_field_takes_360_kilobytes_at_most() {
     let pack = field_pack("");
     let entry = pack.manifest().field.as_ref().unwrap();
-    assert!(entry.file_bytes <= 350_000, "{}", entry.file_bytes);
+    assert!(entry.file_bytes <= 360_000, "{}", entry.file_bytes);
 }
 
 #[test]

@@ -100,7 +100,7 @@ fn options_of_fbm_change_its_clouds() {
 
 #[test]
 fn options_of_lit_change_its_clouds() {
-    let options: [&[&str]; 9] = [
+    let options: [&[&str]; 6] = [
         &["--layers", "cumulus"],
         &["--layers", "stratocumulus,cirrus:1:3"],
         &[
@@ -109,12 +109,12 @@ fn options_of_lit_change_its_clouds() {
         ],
         &["--dome-radius", "30000"],
         &["--flattening", "0.5"],
-        &["--k1", "0.1"],
-        &["--k2", "0.1"],
-        &["--m", "6"],
         &["--formation-interval", "7"],
     ];
     each_option_changes(&["--method", "lit", "--at", "30"], &options);
+    // Numbers of the paper's light alone.
+    let paper = ["--method", "lit", "--shading", "paper"];
+    each_option_changes(&paper, &[&["--k1", "0.1"], &["--k2", "0.1"], &["--m", "6"]]);
     let night = ["--method", "lit", "--time", "0"];
     each_option_changes(&night, &[&["--moon", "0"]]);
 }

@@ -259,6 +259,24 @@ fn a_recipe_says_how_and_the_sheet_shows_what_became_of_it() {
 }
 
 #[test]
+fn a_photograph_that_a_recipe_names_is_not_written_over_when_another_is_used() {
+    let desk = Desk::new();
+    let own = desk.write("sky.png", "precious");
+    let recipe = desk.write("sky.toml", "[clouds.photo]\nfile = \"sky.png\"\n");
+    for names in [&["-o", "sky.png"][..], &["-o", "tile.png", "-s", "sky.png"]] {
+        let place = |name: &&str| match name.starts_with('-') {
+            true => PathBuf::from(name),
+            false => desk.path(name),
+        };
+        let mut photo = welkin();
+        photo.arg("photo").arg(god_rays()).arg("-r").arg(&recipe);
+        run(photo.args(names.iter().map(place))).failed(1, &["sky.png"]);
+        assert_eq!(fs::read_to_string(&own).unwrap(), "precious");
+        assert!(!desk.path("tile.png").exists());
+    }
+}
+
+#[test]
 fn a_whole_one_becomes_a_tile_and_a_pack() {
     let desk = Desk::new();
     fs::copy(god_rays(), desk.path("sky.png")).unwrap();

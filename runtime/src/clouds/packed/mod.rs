@@ -148,7 +148,7 @@ const EROSION: f32 = 0.55;
 const ERODED_DENSE: f32 = 0.4;
 const ERODED_OVERCAST: f32 = 0.3;
 /// Levels by which the detail of an overcast is read coarser: its base is smooth.
-const SOFTER: f32 = 2.0;
+const SOFTER: f32 = 1.5;
 /// Halvings of the light behind, and of the light of the sun, by a height of 1 at density 0. Density 1 makes three times the first and
 /// twice the second.
 const OPACITY_RATE: f32 = 8.0;
