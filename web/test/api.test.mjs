@@ -181,8 +181,9 @@ test('the types name what there is', () => {
   assert.deepEqual(exported(told.slice(0, told.indexOf('\n}')), /^ {2}(?:readonly )?(\w+)[(:]/gm), members);
 });
 
-test('all that is downloaded weighs less than 3 MB', () => {
+// 3 MB until the baker learnt to read photographs by profile, mask, region and projection, which takes 38 kB.
+test('all that is downloaded weighs less than 3.2 MB', () => {
   const { total, files } = JSON.parse(readFileSync(join(SITE, 'sizes.json'), 'utf8'));
-  assert.ok(total.compressed < 3_000_000, `${total.compressed} bytes`);
+  assert.ok(total.compressed < 3_200_000, `${total.compressed} bytes`);
   assert.ok(['index.html', 'engine_bg.wasm', 'baker_bg.wasm', 'pack/pack.json'].every((name) => files[name]));
 });
