@@ -7,8 +7,8 @@
 //! middle has, and what its rims have by the cloud about it: more light towards the light, less away from it.
 //!
 //! # Practice
-//! Two textures in space that repeat along the ground, at most 128 x 64 x 128 texels of four bytes each, made once with the field in some
-//! ten milliseconds. Texels are centred: the first one's middle is half a cell from the grid's corner.
+//! Two textures in space that repeat along the ground, at most 128 x 64 x 128 texels of four bytes each, made once with the
+//! field. Texels are centred: the first one's middle is half a cell from the grid's corner.
 
 use glam::{Vec2, Vec3};
 use welkin_pack::Field;

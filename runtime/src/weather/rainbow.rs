@@ -9,7 +9,7 @@
 //! Computer Graphics Techniques 2 (2), 2013. The sun's disc, half a degree wide, takes the edge off; waves, which add bows of small drops, are left out.
 //!
 //! # Practice
-//! Two tables of [`TEXELS`] colours, made once in some milliseconds when it first rains. What drops scatter evenly is the rain's haze; here is what there
+//! Two tables of [`TEXELS`] colours, made once when it first rains. What drops scatter evenly is the rain's haze; here is what there
 //! is beyond the darkest of the band. One product and two reads of uniforms a pixel where it rains.
 
 use std::f64::consts::{PI, TAU};
