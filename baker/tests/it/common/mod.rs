@@ -51,3 +51,19 @@ pub fn images(sources: &[Source], role: Role) -> &[Image] {
 pub fn image(sources: &[Source], role: Role) -> &Image {
     &images(sources, role)[0]
 }
+
+/// Clouds of a few sizes on blue, without any symmetry.
+pub fn sky(width: u32, height: u32) -> image::RgbImage {
+    image::RgbImage::from_fn(width, height, |x, y| {
+        let wave = |a: f32, b: f32, phase: f32| libm::sinf(a * x as f32 + b * y as f32 + phase);
+        let cloud = 0.5
+            + 0.3 * wave(0.13, 0.04, 0.3) * wave(-0.03, 0.17, 1.0)
+            + 0.2 * wave(0.31, 0.23, 2.0);
+        let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0) as u8;
+        image::Rgb([
+            byte(0.2 + 0.7 * cloud),
+            byte(0.35 + 0.55 * cloud),
+            byte(0.7 + 0.2 * cloud),
+        ])
+    })
+}

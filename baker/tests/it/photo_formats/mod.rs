@@ -16,6 +16,8 @@ use welkin_pack::Image;
 
 use files::{exr, tiff};
 
+use crate::common::sky;
+
 fn settings() -> PhotoSettings {
     PhotoSettings {
         size: 64,
@@ -38,22 +40,6 @@ fn error(bytes: &[u8]) -> String {
         "{error}"
     );
     error
-}
-
-/// Clouds of a few sizes on blue, without any symmetry.
-fn sky(width: u32, height: u32) -> RgbImage {
-    RgbImage::from_fn(width, height, |x, y| {
-        let wave = |a: f32, b: f32, phase: f32| libm::sinf(a * x as f32 + b * y as f32 + phase);
-        let cloud = 0.5
-            + 0.3 * wave(0.13, 0.04, 0.3) * wave(-0.03, 0.17, 1.0)
-            + 0.2 * wave(0.31, 0.23, 2.0);
-        let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0) as u8;
-        image::Rgb([
-            byte(0.2 + 0.7 * cloud),
-            byte(0.35 + 0.55 * cloud),
-            byte(0.7 + 0.2 * cloud),
-        ])
-    })
 }
 
 fn encoded(picture: &DynamicImage, format: ImageFormat) -> Vec<u8> {
