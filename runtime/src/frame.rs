@@ -18,6 +18,8 @@ use crate::clouds::lit::shadow::ShadowUniforms;
 #[cfg(feature = "octaves")]
 use crate::clouds::octaves::OctaveUniforms;
 use crate::clouds::packed::PackedUniforms;
+#[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
+use crate::clouds::photo::PhotoUniforms;
 use crate::clouds::shared::CloudUniforms;
 use crate::geometry::camera::CameraUniforms;
 use crate::geometry::part::Part;
@@ -65,6 +67,9 @@ uniforms! {
         clouds: CloudUniforms,
         /// Clouds of the packed method.
         packed: PackedUniforms,
+        /// The photograph's share of their large shapes.
+        #[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
+        photo: PhotoUniforms,
         /// Clouds of the octaves method.
         #[cfg(feature = "octaves")]
         octaves: OctaveUniforms,

@@ -1,5 +1,7 @@
 //! What the CPU keeps of a pack between frames.
 
+#[cfg(feature = "lit")]
+use glam::Vec2;
 #[cfg(feature = "sprites")]
 use welkin_pack::field::Hour;
 use welkin_pack::{Pack, Role, StarTexel, Texture};
@@ -8,8 +10,12 @@ use crate::clear_sky::light::LitSky;
 use crate::clear_sky::table::SkyTable;
 #[cfg(feature = "fbm")]
 use crate::clouds::fbm::map::Octaves;
+#[cfg(feature = "lit")]
+use crate::clouds::lit;
 #[cfg(feature = "octaves")]
 use crate::clouds::octaves;
+#[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
+use crate::clouds::photo::Photo;
 use crate::error::{SkyError, texture};
 #[cfg(feature = "octaves")]
 use crate::geometry::math::finite;
@@ -30,6 +36,12 @@ pub struct PackData {
     pub cloud_means: [f32; 3],
     /// Photo, noise and detail at places of the clouds that have nothing to do with each other.
     pub cloud_texels: Vec<[f32; 3]>,
+    /// The photo's large shapes.
+    #[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
+    pub photo: Photo,
+    /// See [`lit::map::spreads`].
+    #[cfg(feature = "lit")]
+    pub cirrus_spreads: Vec2,
     /// Texels a side of the stars.
     pub stars: u32,
     /// What a step of each of their levels stands for: [`StarTexel::level_units`].
@@ -70,6 +82,10 @@ impl PackData {
             clouds_texels: texture(pack, Role::Clouds)?.width,
             cloud_means: cloud_means(pack)?,
             cloud_texels: cloud_texels(texture(pack, Role::Clouds)?),
+            #[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
+            photo: Photo::new(texture(pack, Role::Clouds)?),
+            #[cfg(feature = "lit")]
+            cirrus_spreads: lit::map::spreads(texture(pack, Role::Layers)?),
             stars: texture(pack, Role::Stars)?.width,
             star_units: StarTexel::level_units(texture(pack, Role::Stars)?),
             sun: side(texture(pack, Role::Sun)?),

@@ -1,15 +1,17 @@
 //! Twin of clouds/fbm/map.wgsl: the article's loop over up to eight layers, in floats.
 
+use glam::Vec2;
 use welkin_pack::Image;
 use welkin_runtime::internals::clouds::fbm::FbmUniforms;
 use welkin_runtime::internals::clouds::fbm::map::{ABSORPTION, DEPTHS};
 
+use crate::photo::Photo;
 use crate::texture::Texture;
 
 /// Level 0 of the map, not rounded: shade, sum, nothing, cover. `layers` are those of
 /// [`crate::fbm_pack::packed`].
-pub fn render(fbm: &FbmUniforms, layers: &[Texture]) -> Image {
-    map(fbm, layers, |sums| texel(fbm, sums))
+pub fn render(fbm: &FbmUniforms, photo: &Photo<'_>, layers: &[Texture]) -> Image {
+    map(fbm, photo, layers, |sums| texel(fbm, sums))
 }
 
 /// What a texel of level 0 may be off by, in bytes: the four channels at most, and on average.
@@ -18,10 +20,13 @@ pub fn render(fbm: &FbmUniforms, layers: &[Texture]) -> Image {
 /// channels that point towards the sun have been read and rounded once before, which makes two. Weights add up to 1, so
 /// the sums are off by no more. What that is worth is asked of every texel; the target rounds by half a byte. On
 /// average rounding is off by a quarter of its step.
-pub fn allowance(fbm: &FbmUniforms, layers: &[Texture]) -> ([f32; 4], [f32; 4]) {
-    let bounds = map(fbm, layers, |sums| {
+pub fn allowance(fbm: &FbmUniforms, photo: &Photo<'_>, layers: &[Texture]) -> ([f32; 4], [f32; 4]) {
+    // Of the octaves a part is left; the photo's own reads are off by up to a byte of the photo.
+    let by_photo = fbm.spread * photo.off();
+    let bounds = map(fbm, photo, layers, |sums| {
         let moved = |sign: f32| {
-            let bytes = [2.0, 2.0, 2.0, 1.0].map(|bytes| sign * bytes / 255.0);
+            let bytes =
+                [2.0, 2.0, 2.0, 1.0].map(|bytes| sign * (photo.rest() * bytes / 255.0 + by_photo));
             texel(fbm, std::array::from_fn(|i| sums[i] + bytes[i]))
         };
         let (less, here, more) = (moved(-1.0), texel(fbm, sums), moved(1.0));
@@ -36,7 +41,12 @@ pub fn allowance(fbm: &FbmUniforms, layers: &[Texture]) -> ([f32; 4], [f32; 4]) 
 }
 
 /// A map of something that follows from the sums of the octaves, three, two, one and no steps towards the sun.
-fn map(fbm: &FbmUniforms, layers: &[Texture], texel: impl Fn([f32; 4]) -> [f32; 4]) -> Image {
+fn map(
+    fbm: &FbmUniforms,
+    photo: &Photo<'_>,
+    layers: &[Texture],
+    texel: impl Fn([f32; 4]) -> [f32; 4],
+) -> Image {
     let side = fbm.resolution;
     let offsets = fbm.offsets.map(|two| two.to_array()).concat();
     let weights = fbm.weights.map(|four| four.to_array()).concat();
@@ -51,6 +61,11 @@ fn map(fbm: &FbmUniforms, layers: &[Texture], texel: impl Fn([f32; 4]) -> [f32; 
                 *sum += weights[k] * noise;
             }
         }
+        let place = Vec2::new(u + offsets[0], v + offsets[1]);
+        for (steps, sum) in [3.0, 2.0, 1.0, 0.0].into_iter().zip(&mut sums) {
+            let photo_s = photo.over(0.0, place + fbm.sun_step * steps);
+            *sum = fbm.mean + photo.rest() * (*sum - fbm.mean) + fbm.spread * photo_s;
+        }
         map.texel_mut(x, y).copy_from_slice(&texel(sums));
     }
     map
@@ -58,7 +73,7 @@ fn map(fbm: &FbmUniforms, layers: &[Texture], texel: impl Fn([f32; 4]) -> [f32; 
 
 fn texel(fbm: &FbmUniforms, sums: [f32; 4]) -> [f32; 4] {
     let cover = (fbm.slope * sums[3] + fbm.intercept).clamp(0.0, 1.0);
-    let shade = shade(sums.map(|sum| fbm.slope * sum + fbm.ray_intercept));
+    let shade = shade(sums.map(|sum| fbm.ray_slope * sum + fbm.ray_intercept));
     [shade, sums[3], 0.0, cover]
 }
 

@@ -30,6 +30,7 @@ pub mod packed;
 pub mod packed_map;
 pub mod packed_paper;
 pub mod perez;
+pub mod photo;
 pub mod rain;
 pub mod rays;
 pub mod renderer;

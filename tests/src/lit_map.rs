@@ -10,12 +10,19 @@ use welkin_runtime::internals::clouds::lit::{LitLayerUniforms, LitUniforms};
 use welkin_runtime::internals::clouds::shared::MULTIPLE;
 use welkin_runtime::params::{MAX_LAYERS, Shading};
 
+use crate::octaves_map::normal_share;
+use crate::photo::{Photo, over_even};
 use crate::texture::{Texture, mix, smoothstep};
 
 /// Level 0 of each layer in use, not rounded. By the paper's shading: light that falls on the cloud, amount, opacity, shade; by the other: what
 /// is left of light that was scattered many times, amount, opacity, height. `kinds` are the pack's layers.
-pub fn render(lit: &LitUniforms, kinds: &[Texture], shading: Shading) -> Vec<Image> {
-    map(lit, kinds, shading, |layer, _, places| {
+pub fn render(
+    lit: &LitUniforms,
+    kinds: &[Texture],
+    photo: &Photo<'_>,
+    shading: Shading,
+) -> Vec<Image> {
+    map(lit, kinds, photo, shading, |layer, _, places| {
         shaded(lit, layer, places, shading)
     })
 }
@@ -24,12 +31,20 @@ pub fn render(lit: &LitUniforms, kinds: &[Texture], shading: Shading) -> Vec<Ima
 ///
 /// A texture unit may filter 8-bit texels in 8 bits, so each read is off by up to a byte, and the weights of both reads add
 /// up to 1; towards the sun it mixes levels, too. Exponentials of a GPU are off by 2^-11 of at most 1; the target rounds by half a byte.
-pub fn bounds(lit: &LitUniforms, kinds: &[Texture], shading: Shading) -> Vec<Image> {
+pub fn bounds(
+    lit: &LitUniforms,
+    kinds: &[Texture],
+    photo: &Photo<'_>,
+    shading: Shading,
+) -> Vec<Image> {
     let byte = match shading {
         Shading::Scattered => 1.5 / 255.0,
         Shading::Paper => 1.0 / 255.0,
     };
-    let mut images = changes(lit, kinds, shading, &[byte; MAX_LAYERS]);
+    // The density of a normal distribution is at most 0.4.
+    let photo_off = byte * 0.4 * photo.uniforms.per_spread;
+    let off = [byte; MAX_LAYERS];
+    let mut images = changes(lit, kinds, photo, shading, &off, photo_off);
     for bound in images.iter_mut().flat_map(|image| &mut image.texels) {
         *bound = 255.0 * (*bound + libm::exp2f(-11.0)) + 0.5;
     }
@@ -37,17 +52,28 @@ pub fn bounds(lit: &LitUniforms, kinds: &[Texture], shading: Shading) -> Vec<Ima
 }
 
 /// By how much each texel of level 0 changes if every read of a layer is off by up to as much as the layer's place in `off`
-/// says.
+/// says, and the photo's amount by `photo_off`.
 ///
 /// Amount, opacity and height only rise with the rank, and light and shade only fall with ranks and densities, so they are farthest off
 /// where every read is off the same way. What follows from a normal is taken with it moved all ways.
-fn changes(lit: &LitUniforms, kinds: &[Texture], shading: Shading, off: &[f32]) -> Vec<Image> {
+fn changes(
+    lit: &LitUniforms,
+    kinds: &[Texture],
+    photo: &Photo<'_>,
+    shading: Shading,
+    off: &[f32],
+    photo_off: f32,
+) -> Vec<Image> {
     const WAYS: [f32; 3] = [-1.0, 0.0, 1.0];
-    map(lit, kinds, shading, |layer, index, places| {
+    map(lit, kinds, photo, shading, |layer, index, places| {
         let here = shaded(lit, layer, places, shading);
         let mut most = [0.0_f32; 4];
-        let moved = |x: f32, y: f32, by: f32| {
-            let mut moved: Vec<Place> = places.iter().map(|place| place.off_by(by)).collect();
+        let moved = |x: f32, y: f32, all: f32| {
+            let by = all * off[index];
+            let mut moved: Vec<Place> = places
+                .iter()
+                .map(|place| place.off_by(by, all * photo_off))
+                .collect();
             for (part, way) in moved[0].read.iter_mut().zip([x, y]) {
                 *part += way * off[index] - by;
             }
@@ -55,7 +81,7 @@ fn changes(lit: &LitUniforms, kinds: &[Texture], shading: Shading, off: &[f32]) 
         };
         for way in WAYS {
             for (x, y) in WAYS.iter().flat_map(|x| WAYS.map(|y| (*x, y))) {
-                let there = moved(x, y, way * off[index]);
+                let there = moved(x, y, way);
                 for (most, (there, here)) in most.iter_mut().zip(there.iter().zip(here)) {
                     *most = most.max((there - here).abs());
                 }
@@ -72,6 +98,7 @@ pub fn most_change(
     from: &LitUniforms,
     to: &LitUniforms,
     kinds: &[Texture],
+    photo: &Photo<'_>,
     shading: Shading,
 ) -> Vec<[f32; 4]> {
     let layers = from.layers.iter().zip(&to.layers);
@@ -84,7 +111,7 @@ pub fn most_change(
             WEIGHTS[1] * (texels * steepest(&kind.levels()[0]) + 2.0 / 255.0)
         })
         .collect();
-    let images = changes(from, kinds, shading, &off).into_iter();
+    let images = changes(from, kinds, photo, shading, &off, 0.0).into_iter();
     images.map(|image| largest(&image)).collect()
 }
 
@@ -126,6 +153,7 @@ pub fn kinds(pack: &Pack) -> Vec<Texture> {
 pub fn allowance(
     lit: &LitUniforms,
     kinds: &[Texture],
+    photo: &Photo<'_>,
     shading: Shading,
 ) -> Vec<([f32; 4], [f32; 4])> {
     let of_layer = |bounds: Image| {
@@ -134,7 +162,7 @@ pub fn allowance(
         let mean = std::array::from_fn(|i| channel(i).sum::<f32>() / texels / 4.0);
         (largest(&bounds), mean)
     };
-    bounds(lit, kinds, shading)
+    bounds(lit, kinds, photo, shading)
         .into_iter()
         .map(of_layer)
         .collect()
@@ -156,11 +184,21 @@ struct Place {
     read: [f32; 4],
     /// Lumps and bands of an overcast, between 0 and 1.
     rolls: f32,
+    /// The photo's share of the amount, and its own there.
+    photo: [f32; 2],
+    /// How many times as much as a read the rank is off.
+    rank_gain: f32,
 }
 
 impl Place {
     /// At a level of the pack's texture.
-    fn of(layer: &LitLayerUniforms, kinds: &[Texture], uv: Vec2, level: f32) -> Place {
+    fn of(
+        layer: &LitLayerUniforms,
+        kinds: &[Texture],
+        photo: &Photo<'_>,
+        uv: Vec2,
+        level: f32,
+    ) -> Place {
         let [lumps, fibres] =
             [LayerKind::Cumulus, LayerKind::Cirrus].map(|kind| &kinds[kind as usize]);
         let kind = layer.kind as usize;
@@ -173,17 +211,36 @@ impl Place {
         let [coarse, coarser] = ROLL_LEVELS;
         let [_, _, lump, _] = lumps.sample(away, level + coarse);
         let [_, _, band, _] = fibres.sample(bent(uv).to_array(), level + coarser);
+        let ([mut here, mut other], mut rank_gain) = ([here, other], 1.0);
+        if kind == LayerKind::Cirrus as usize {
+            for (read, spread) in [(&mut here, layer.spreads.x), (&mut other, layer.spreads.y)] {
+                read[3] = normal_share((read[3] - 0.5) / spread);
+            }
+            // The density of a normal distribution is at most 0.4.
+            rank_gain = 0.4 / layer.spreads.min_element();
+        }
         Place {
             read: mix(here, other, WEIGHTS[1]),
             rolls: 0.5 * (lump + band),
+            photo: photo.share(uv),
+            rank_gain,
         }
     }
 
-    /// With every read off.
-    fn off_by(&self, off: f32) -> Place {
+    /// How much cloud there is.
+    fn amount(&self) -> f32 {
+        over_even(even(self.read[3]), self.photo)
+    }
+
+    /// With every read off, and the photo's amount.
+    fn off_by(&self, off: f32, photo_off: f32) -> Place {
         Place {
-            read: self.read.map(|channel| channel + off),
+            read: std::array::from_fn(|i| {
+                self.read[i] + if i == 3 { self.rank_gain * off } else { off }
+            }),
             rolls: self.rolls + off,
+            photo: [self.photo[0], self.photo[1] + photo_off],
+            ..*self
         }
     }
 }
@@ -206,6 +263,7 @@ fn bent(uv: Vec2) -> Vec2 {
 fn map(
     lit: &LitUniforms,
     kinds: &[Texture],
+    photo: &Photo<'_>,
     shading: Shading,
     texel: impl Fn(&LitLayerUniforms, usize, &[Place]) -> [f32; 4],
 ) -> Vec<Image> {
@@ -226,6 +284,7 @@ fn map(
                 Place::of(
                     layer,
                     kinds,
+                    photo,
                     Vec2::new(x, y) + layer.sun_step * steps,
                     level,
                 )
@@ -250,13 +309,12 @@ fn shaded(
 ) -> [f32; 4] {
     match shading {
         Shading::Scattered => scattered(lit, layer, places),
-        Shading::Paper => texel(lit, layer, places[0].read),
+        Shading::Paper => texel(lit, layer, places[0].read, places[0].amount()),
     }
 }
 
 /// Height of a layer's cloud, with the rolls of an overcast.
-pub(crate) fn height(lit: &LitUniforms, layer: &LitLayerUniforms, rank: f32, rolls: f32) -> f32 {
-    let amount = even(rank);
+pub(crate) fn height(lit: &LitUniforms, layer: &LitLayerUniforms, amount: f32, rolls: f32) -> f32 {
     let alone = layer.height_rate * (amount - layer.threshold.max(0.0)).max(0.0);
     let [least, rising, own, round] = ROLLS;
     let rolls = least + rising * (rolls - 0.5) + own * (amount - 0.5);
@@ -278,17 +336,17 @@ pub(crate) fn passed(own: f32, towards: [f32; 3]) -> f32 {
 }
 
 fn scattered(lit: &LitUniforms, layer: &LitLayerUniforms, places: &[Place]) -> [f32; 4] {
-    let [x, y, _, rank] = places[0].read;
+    let [x, y, ..] = places[0].read;
     let heights: Vec<f32> = places
         .iter()
-        .map(|place| height(lit, layer, place.read[3], place.rolls))
+        .map(|place| height(lit, layer, place.amount(), place.rolls))
         .collect();
     let lean = [x, y].map(|part| layer.relief * (2.0 * part - 1.0));
     let towards_sun = Vec2::from(lean).dot(layer.sun_uv);
     let kept = 1.0 - EVENED_RELIEF * lit.overcast;
     let relief = RELIEF * kept * towards_sun * (RELIEF_FULL * heights[0]).min(1.0);
     let passed = passed(heights[0], [heights[1], heights[2], heights[3]]) - relief;
-    let amount = even(rank);
+    let amount = places[0].amount();
     [
         libm::exp2f(-MULTIPLE[1] * layer.extinction * passed.max(0.0)),
         amount,
@@ -298,9 +356,12 @@ fn scattered(lit: &LitUniforms, layer: &LitLayerUniforms, places: &[Place]) -> [
 }
 
 /// What the blended read of a place makes of a texel by the paper's shading.
-pub(crate) fn texel(lit: &LitUniforms, layer: &LitLayerUniforms, read: [f32; 4]) -> [f32; 4] {
-    let [x, y, density, rank] = read;
-    let amount = even(rank);
+pub(crate) fn texel(
+    lit: &LitUniforms,
+    layer: &LitLayerUniforms,
+    [x, y, density, _]: [f32; 4],
+    amount: f32,
+) -> [f32; 4] {
     // Equation 5. Under an overcast the cut is below 0, and what lies under 0 does not shade.
     let thick = (amount - layer.threshold.max(0.0)).max(0.0) * (0.5 + density);
     // What a thickness leaves of the light, so often as the exponent says.
@@ -359,7 +420,7 @@ mod tests {
             relief: 1.0,
             ..Default::default()
         };
-        let [falls, amount, opacity, shade] = texel(&lit, &layer, [0.8, 0.5, 0.25, 0.5]);
+        let [falls, amount, opacity, shade] = texel(&lit, &layer, [0.8, 0.5, 0.25, 0.5], even(0.5));
         // A normal of (0.6, 0, 0.8).
         assert!((falls - (0.36 + 0.8 * 0.5)).abs() < 1e-6);
         assert!((amount - 0.5).abs() < 1e-6);
@@ -367,7 +428,7 @@ mod tests {
         assert!((opacity - 27.0 / 32.0).abs() < 1e-5);
         // 0.3 of thickness times 0.75 of density times 0.8, twice.
         assert!((shade - libm::exp2f(-2.0 * 0.8 * 0.3 * 0.75)).abs() < 1e-5);
-        let [_, _, clear, bright] = texel(&lit, &layer, [0.0, 0.5, 0.25, 0.1]);
+        let [_, _, clear, bright] = texel(&lit, &layer, [0.0, 0.5, 0.25, 0.1], even(0.1));
         assert_eq!([clear, bright], [0.0, 1.0], "no cloud, no shade");
     }
 }

@@ -118,7 +118,7 @@ mod tests {
             };
             let uniforms = facts.uniforms(&params, &camera, 0.0, 0.0);
             let lit = &uniforms.lit;
-            let [falls, _, _, shade] = lit_map::texel(lit, &lit.layers[0], [0.5; 4]);
+            let [falls, _, _, shade] = lit_map::texel(lit, &lit.layers[0], [0.5; 4], 0.5);
             // Layers above shade it, each by its mean opacity.
             let above = &lit.layers[1..count(lit)];
             let opacity = |layer: &LitLayerUniforms| {

@@ -3,8 +3,8 @@
 use glam::{Vec2, Vec3};
 use welkin_runtime::internals::clouds::octaves::OctaveDome;
 use welkin_runtime::internals::clouds::octaves::{
-    BODY_HEIGHTS, EDGE, FINER, FINER_START, HIGH_OPACITY, LEAST_LIGHT, MIDDLE_OPACITY, ROUGH_DEPTH,
-    ROUGH_GREY, THIN_DEPTH,
+    BEND, BODY_HEIGHTS, EDGE, FINER, FINER_START, HIGH_OPACITY, LEAST_LIGHT, MIDDLE_OPACITY,
+    ROUGH_DEPTH, ROUGH_GREY, THIN_DEPTH, VEIL_LEVEL,
 };
 use welkin_runtime::params::Shading;
 
@@ -20,6 +20,12 @@ pub fn alpha(thickness: f32, exponent: f32) -> f32 {
 /// Where a dome reads the map.
 fn uv(dome: &OctaveDome, plane: Vec2) -> Vec2 {
     dome.east_axis * plane.x + dome.south_axis * plane.y + dome.offset
+}
+
+/// Where the fibres of the high dome are read.
+fn bent(uv: Vec2) -> Vec2 {
+    let turn = 2.0 * (uv.y - uv.y.floor()) - 1.0;
+    uv + Vec2::new(BEND * turn * (turn.abs() - 1.0), 0.0)
 }
 
 /// See [`crate::methods::layer`]. Reads: opacity and grey of the low clouds, the finer amount, opacity of the middle clouds,
@@ -46,7 +52,7 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
         grey += (own + ROUGH_GREY * finer - grey) * alpha;
         clear *= 1.0 - alpha;
         let passed = ROUGH_DEPTH * finer - libm::log2f(own.max(LEAST_LIGHT));
-        depth += (passed.max(0.0) - depth) * alpha;
+        depth += (octaves.base_depth + passed.max(0.0) - depth) * alpha;
         body = alpha;
     }
     if octaves.middle.threshold < 1.0 {
@@ -54,7 +60,9 @@ pub fn layer(inputs: &Inputs, direction: Vec3, narrowing: f32) -> (Vec3, f32) {
         clear *= 1.0 - MIDDLE_OPACITY * (alpha + inputs.nudges[3]);
     }
     if octaves.high.threshold < 1.0 {
-        let [amount, ..] = map(&octaves.high);
+        let place = bent(uv(&octaves.high, hit.plane));
+        let [amount, ..] =
+            inputs.map_at(place.to_array(), level + octaves.high.lod_bias + VEIL_LEVEL);
         let thickness = amount + inputs.nudges[4] - octaves.high.threshold;
         clear *= 1.0 - HIGH_OPACITY * smoothstep(0.0, 1.0, thickness * octaves.high_contrast);
     }

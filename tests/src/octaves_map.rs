@@ -12,6 +12,7 @@ use welkin_runtime::params::Shading;
 
 use crate::gpu;
 use crate::octaves::alpha;
+use crate::photo::Photo;
 
 /// The uniform cubic B-spline of width 4 about 0: I. J. Schoenberg, "Contributions to the Problem of Approximation
 /// of Equidistant Data by Analytic Functions", Quarterly of Applied Mathematics 4, 1946.
@@ -29,7 +30,12 @@ pub fn normal_share(z: f32) -> f32 {
 /// Level 0 of the map, not rounded: amount, opacity of the low and of the middle dome, sunlight that the low dome leaves or its
 /// grey.
 /// `states` are those of [`welkin_runtime::internals::clouds::octaves::map::states`].
-pub fn render(octaves: &OctaveUniforms, shading: Shading, states: &[f32]) -> Image {
+pub fn render(
+    octaves: &OctaveUniforms,
+    photo: &Photo<'_>,
+    shading: Shading,
+    states: &[f32],
+) -> Image {
     let OctaveUniforms {
         count,
         exponent,
@@ -46,8 +52,11 @@ pub fn render(octaves: &OctaveUniforms, shading: Shading, states: &[f32]) -> Ima
     let large_away = sums(octaves, states, 0..large, octaves.sun_step);
     let mut map = Image::new(side as u32, side as u32, 4);
     for (index, texel) in map.texels.chunks_exact_mut(4).enumerate() {
-        let amount = normal_share(here[index]);
-        let towards_sun = normal_share(here[index] + large_away[index] - large_here[index]);
+        let place = [index % side as usize, index / side as usize];
+        let uv = Vec2::from(place.map(|i| (i as f32 + 0.5) / side));
+        let amount = normal_share(photo.over(here[index], uv));
+        let away = here[index] + large_away[index] - large_here[index];
+        let towards_sun = normal_share(photo.over(away, uv + octaves.sun_step));
         let thickness = amount - octaves.low.threshold;
         let above = (amount - octaves.low.threshold.max(0.0)).max(0.0);
         let relief = relief * (amount - towards_sun);
@@ -92,6 +101,7 @@ fn sums(octaves: &OctaveUniforms, states: &[f32], which: Range<usize>, away: Vec
 /// density, at most 0.4, turns all that into an amount; [`slopes`] turn that into the other channels.
 pub fn allowance(
     octaves: &OctaveUniforms,
+    photo: &Photo<'_>,
     shading: Shading,
     states: &[f32],
 ) -> ([f32; 4], [f32; 4]) {
@@ -110,6 +120,9 @@ pub fn allowance(
         // The difference of two texels has twice the variance, on two axes.
         square += variance * (half * half + 4.0 * fraction * fraction) / 3.0;
     }
+    // What is left of the octaves, and the photo's own reads.
+    most = photo.rest() * most + photo.off();
+    square = photo.rest() * photo.rest() * square + photo.off() * photo.off() / 3.0;
     let slopes = slopes(octaves, shading);
     let bytes = NORMAL_SLOPE / 2.0 * 255.0;
     (
@@ -201,7 +214,10 @@ fn reads(side: usize, cells: f32, away: f32) -> Vec<([usize; 4], [f32; 4])> {
 mod tests {
     use glam::Vec4;
 
+    use welkin_pack::role::Wrap;
+
     use super::*;
+    use crate::texture::Texture;
 
     #[test]
     fn the_spline_is_a_box_folded_three_times_with_itself() {
@@ -247,6 +263,7 @@ mod tests {
             ..Default::default()
         };
         let amount = normal_share(0.5);
+        let clouds = Texture::from_levels(vec![Image::new(2, 2, 4)], Wrap::Repeat);
         let lights = [
             (Shading::Scattered, libm::exp2f(-3.0 * amount)),
             (Shading::Paper, 0.75 - 0.5 * amount),
@@ -258,7 +275,11 @@ mod tests {
                 alpha(amount, -2.0 * THIN),
                 light,
             ];
-            let map = render(&octaves, shading, &[0.25; 2048]);
+            let photo = Photo {
+                clouds: &clouds,
+                uniforms: Default::default(),
+            };
+            let map = render(&octaves, &photo, shading, &[0.25; 2048]);
             for texel in map.texels.chunks_exact(4) {
                 assert!((0..4).all(|c| (texel[c] - expected[c]).abs() < 1e-5));
             }

@@ -9,6 +9,7 @@ use welkin_runtime::params::Shading;
 use welkin_runtime::{Camera, Method, SkyParams};
 
 use crate::clouds::Inputs;
+use crate::photo::Photo;
 use crate::skybox::{self, Skybox};
 use crate::texture::{Texture, smoothstep};
 use crate::{
@@ -130,9 +131,27 @@ impl Frame<'_> {
                 Shading::Paper => Vec::new(),
             },
             Method::Sprites => Vec::new(),
-            Method::Octaves => vec![octaves_map::render(octaves, self.shading, &self.states)],
-            Method::Fbm => vec![fbm_map::render(fbm, &self.packed_octaves())],
-            Method::Lit => lit_map::render(&self.uniforms.lit, &self.twin.layers, self.shading),
+            Method::Octaves => vec![octaves_map::render(
+                octaves,
+                &self.photo(),
+                self.shading,
+                &self.states,
+            )],
+            Method::Fbm => vec![fbm_map::render(fbm, &self.photo(), &self.packed_octaves())],
+            Method::Lit => lit_map::render(
+                &self.uniforms.lit,
+                &self.twin.layers,
+                &self.photo(),
+                self.shading,
+            ),
+        }
+    }
+
+    /// The pack's photograph, as this frame mixes it into the map.
+    pub fn photo(&self) -> Photo<'_> {
+        Photo {
+            clouds: &self.twin.clouds,
+            uniforms: self.uniforms.photo,
         }
     }
 
@@ -150,14 +169,21 @@ impl Frame<'_> {
             Method::Sprites => Vec::new(),
             Method::Octaves => vec![octaves_map::allowance(
                 &self.uniforms.octaves,
+                &self.photo(),
                 self.shading,
                 &self.states,
             )],
             Method::Fbm => vec![fbm_map::allowance(
                 &self.uniforms.fbm,
+                &self.photo(),
                 &self.packed_octaves(),
             )],
-            Method::Lit => lit_map::allowance(&self.uniforms.lit, &self.twin.layers, self.shading),
+            Method::Lit => lit_map::allowance(
+                &self.uniforms.lit,
+                &self.twin.layers,
+                &self.photo(),
+                self.shading,
+            ),
         }
     }
 
@@ -198,7 +224,7 @@ impl Frame<'_> {
         let mut behind = behind.iter();
         self.pixels(|pixel| {
             let behind = behind.next().expect("every pixel is there");
-            self.over(*behind, self.sun(pixel), pixel)
+            self.over(*behind, pixel)
         })
     }
 
@@ -337,7 +363,7 @@ impl Frame<'_> {
 
     /// Radiance of one pixel, behind the haze of rain if there is any, with its bow.
     pub fn pixel(&self, pixel: Vec2) -> Vec3 {
-        let sky = self.over(self.pixel_behind(pixel), self.sun(pixel), pixel);
+        let sky = self.over(self.pixel_behind(pixel), pixel);
         self.in_rain(sky, pixel)
     }
 
@@ -360,11 +386,11 @@ impl Frame<'_> {
         radiance
     }
 
-    /// Radiance of the sun, as far as no skybox takes its place.
-    fn sun(&self, pixel: Vec2) -> Vec3 {
+    /// Radiance of the sun, of whose light a share comes through, as far as no skybox takes its place.
+    fn sun(&self, pixel: Vec2, share: f32) -> Vec3 {
         let (twin, uniforms) = (self.twin, &self.uniforms);
         let direction = camera::ray_of(&uniforms.camera, pixel).normalize();
-        let sun = sun::radiance(uniforms, &twin.sun, direction);
+        let sun = sun::radiance(uniforms, &twin.sun, direction, share);
         let Some(skybox) = &twin.skybox else {
             return sun;
         };
@@ -373,15 +399,15 @@ impl Frame<'_> {
     }
 
     /// The clouds of one pixel over what is behind them.
-    fn over(&self, behind: Vec3, sun: Vec3, pixel: Vec2) -> Vec3 {
+    fn over(&self, behind: Vec3, pixel: Vec2) -> Vec3 {
         let ray = camera::ray_of(&self.uniforms.camera, pixel);
         let direction = ray / ray.length();
         if direction.y <= 0.0 {
-            return behind + sun;
+            return behind + self.sun(pixel, 1.0);
         }
         let (cloud, alpha) = self.clouds(direction, ray.length());
         // Of the sun's own light clouds leave the cube of what they leave of the rest.
-        let behind = behind + sun * (1.0 - alpha).powi(2);
+        let behind = behind + self.sun(pixel, (1.0 - alpha).powi(2));
         behind.lerp(cloud, alpha) + lightning::light(&self.uniforms, direction, cloud, alpha)
     }
 }

@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3, Vec3Swizzles};
 use welkin_pack::air::AUREOLE_LOBES;
 use welkin_pack::role::Wrap;
 use welkin_runtime::SkyParams;
-use welkin_runtime::internals::clear_sky::ground::{BACKSCATTER, MOTTLING};
+use welkin_runtime::internals::clear_sky::ground::{BACKSCATTER, FINER, FINER_MOTTLING, MOTTLING};
 use welkin_runtime::internals::clear_sky::picture::BEND;
 use welkin_runtime::internals::clear_sky::table::{AUREOLE_END, AUREOLE_LEAST};
 use welkin_runtime::internals::frame::Uniforms;
@@ -36,10 +36,14 @@ pub fn radiance(uniforms: &Uniforms, texture: &Texture, clouds: &Texture, direct
     let ground = &uniforms.ground;
     let away = 1.0 / (-direction.y).max(1e-6);
     let uv = ground.place + direction.xz() * (away * ground.height_tiles);
-    let noise = clouds.sample(uv.to_array(), ground.lod + 2.0 * libm::log2f(away))[2];
+    let level = ground.lod + 1.5 * libm::log2f(away);
+    let noise = clouds.sample(uv.to_array(), level)[2] - ground.mean;
+    let finer_level = level + libm::log2f(FINER);
+    let finer = clouds.sample((uv * FINER).to_array(), finer_level)[2] - ground.mean;
     let facing = 1.0 - BACKSCATTER * direction.dot(sky.sun_direction);
     let lit = ground.skylit + ground.sunlit * (facing / (ground.sun_sin - direction.y));
-    let radiance = lit * (ground.plain + MOTTLING * noise);
+    let pattern = 1.0 + MOTTLING * noise;
+    let radiance = lit * pattern * (1.0 + FINER_MOTTLING * finer);
     let through = Vec3::from((-ground.depth * away).to_array().map(libm::exp2f));
     light + (radiance - light) * through
 }

@@ -6,8 +6,8 @@ use welkin_runtime::internals::frame::Uniforms;
 
 use crate::texture::{Texture, smoothstep};
 
-/// Radiance of the sun's square and of its glare along a unit direction.
-pub fn radiance(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3 {
+/// Radiance of the sun's square and of its glare along a unit direction, where a share of its light comes through.
+pub fn radiance(uniforms: &Uniforms, texture: &Texture, direction: Vec3, share: f32) -> Vec3 {
     let sun = &uniforms.sun;
     let cosine = direction.dot(uniforms.sky.sun_direction);
     if cosine <= sun.least_cosine {
@@ -18,9 +18,11 @@ pub fn radiance(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3
     let place = [direction.dot(sun.right), -direction.dot(sun.up)];
     let inside = |place: [f32; 2]| place[0].abs().max(place[1].abs()) < 1.0;
     if !inside(place) {
-        return glare;
+        return share * glare;
     }
     let uv = place.map(|p| 0.5 + 0.5 * p);
-    let disc = texture.sample(uv, sun.lod)[0];
-    glare + sun.disc * (disc * smoothstep(-HORIZON, HORIZON, direction.y))
+    let covered = texture.sample(uv, sun.lod)[0] * smoothstep(-HORIZON, HORIZON, direction.y);
+    let disc = share * sun.disc;
+    let shown = (sun.brightest / disc.max_element().max(1e-6)).min(1.0);
+    share * glare + disc * (shown * covered)
 }

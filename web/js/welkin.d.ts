@@ -27,6 +27,7 @@ export type SettingName =
   | 'method'
   | 'shading'
   | 'upper'
+  | 'photo'
   | 'octaves'
   | 'octaves-sharpness'
   | 'octaves-interval'
@@ -98,6 +99,8 @@ export interface Settings {
   shading?: 'scattered' | 'paper';
   /** Amount of a thin upper layer, 0 (none) to 1. */
   upper?: number | string;
+  /** How much of the clouds' large shapes is the photograph's, 0 (as published) to 1. */
+  photo?: number | string;
   /** How many octaves are summed. */
   octaves?: number | string;
   /** How sharply clouds end. From 0 to 1. */

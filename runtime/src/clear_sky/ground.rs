@@ -10,11 +10,12 @@
 //!
 //! # Changes
 //! Towards the sun the ground shows its shaded side and away from it its lit one: a factor from 1 - [`BACKSCATTER`] to 1 + [`BACKSCATTER`], chosen.
-//! Its albedo varies with the detail of the clouds' texture, in patches of fields and woods, which fade to the mean with distance.
+//! Its albedo varies with the detail of the clouds' texture, read twice: in patches of fields and woods, the brighter the redder, as dry grass and bare
+//! soil are, and [`FINER`] times finer in them. Both fade to the mean with distance.
 //! The distance is that of a plane; where the earth would curve away, air hides it for a viewer below some kilometres.
 //!
 //! # Practice
-//! A read, an exponential and a division a pixel below the horizon. An application that draws its own ground covers it.
+//! Two reads, an exponential and a division a pixel below the horizon. An application that draws its own ground covers it.
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use welkin_pack::air::{AEROSOL_SCALE_KM, Colour, MOLECULE_SCALE_KM, aerosol, rayleigh};
@@ -26,7 +27,10 @@ use crate::geometry::uniforms::uniforms;
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[
-        ("GROUND_MOTTLING", Value::F32(MOTTLING)),
+        ("GROUND_MOTTLING", Value::Vec3(MOTTLING)),
+        ("GROUND_FINER", Value::F32(FINER)),
+        ("GROUND_FINER_LEVEL", Value::Log2(FINER)),
+        ("GROUND_FINER_MOTTLING", Value::F32(FINER_MOTTLING)),
         ("GROUND_BACKSCATTER", Value::F32(BACKSCATTER)),
     ],
     structs: &[GroundUniforms::WGSL],
@@ -46,8 +50,8 @@ uniforms! {
         lod: f32,
         /// Texture coordinates of the place below the viewer.
         place: Vec2,
-        /// How bright it is where the noise is 0, so that its mean is 1.
-        plain: f32,
+        /// Mean of the noise.
+        mean: f32,
         /// Sine of the elevation of sun or moon, and a little, so that it is no divisor of 0.
         sun_sin: f32,
         /// Its radiance by sunlight where the law of Lommel and Seeliger is 1.
@@ -62,8 +66,12 @@ const LEAST_HEIGHT_M: f32 = 60.0;
 
 /// Side of a tile of the noise on the ground, in metres.
 const TILE_M: f64 = 5000.0;
-/// How much brighter than its mean the ground is where the noise is 1.
-pub const MOTTLING: f32 = 1.2;
+/// How much brighter than its mean the ground is for each 1 that the noise lies over its own: red, green, blue. Chosen by eye, as is the finer one.
+pub const MOTTLING: Vec3 = Vec3::new(1.2, 1.05, 0.85);
+/// How much finer the second read is. A whole number: places are reduced by whole tiles.
+pub const FINER: f32 = 23.0;
+/// How much brighter the ground is for each 1 that the second read lies over the mean.
+pub const FINER_MOTTLING: f32 = 1.2;
 
 /// How much brighter than its mean the ground is away from the sun, and darker towards it.
 pub const BACKSCATTER: f32 = 0.4;
@@ -113,7 +121,7 @@ pub fn uniforms(
         depth: depth * std::f32::consts::LOG2_E,
         lod: (pixel_rad * height_tiles * noise.texels as f32).log2(),
         place: (place - place.floor()).as_vec2(),
-        plain: 1.0 - MOTTLING * noise.mean,
+        mean: noise.mean,
         sun_sin: light.sun_sin.max(1e-3),
         sunlit: albedo * light.sun * light.sun_sin.max(0.0),
         ..Default::default()

@@ -9,9 +9,11 @@ fn ground_seen(horizon: vec3f, direction: vec3f) -> vec3f {
     let away = both * (ground.sun_sin + down);
     let uv = ground.place + direction.xz * (away * ground.height_tiles);
     // A pixel covers the square of the distance: as much more along the view as it is flatter.
-    let noise = textureSampleLevel(clouds_texture, repeat_sampler, uv, ground.lod - 2.0 * log2(down)).b;
+    let level = ground.lod - 1.5 * log2(down);
+    let noise = textureSampleLevel(clouds_texture, repeat_sampler, uv, level).b - ground.mean;
+    let finer = textureSampleLevel(clouds_texture, repeat_sampler, uv * GROUND_FINER, level + GROUND_FINER_LEVEL).b - ground.mean;
     let facing = 1.0 - GROUND_BACKSCATTER * dot(direction, uniforms.sky.sun_direction);
     let lit = ground.skylit + ground.sunlit * (facing * (both * down));
-    let radiance = lit * (ground.plain + GROUND_MOTTLING * noise);
+    let radiance = lit * (1.0 + GROUND_MOTTLING * noise) * (1.0 + GROUND_FINER_MOTTLING * finer);
     return mix(horizon, radiance, exp2(-ground.depth * away));
 }

@@ -10,7 +10,8 @@
 //! photograph of the sun has it: `L = k 10 E / theta^3` with theta in degrees, the inner part of the veil that the eye has by J. J. Vos,
 //! "On the cause of disability glare and its dependence on glare angle, age and ocular pigmentation", 2003, of which a lens has a share k,
 //! chosen; it is taken off by its value 25 degrees from the sun and ends there. A float target gets the light that comes from there, without it. Where a pixel is larger than the disc, the disc is drawn as
-//! large as the pixel and as much dimmer, so that its light stays the same.
+//! large as the pixel and as much dimmer, so that its light stays the same. A display, which shows no light beyond some times white, gets no more of it: so the pixels of its edge, which
+//! it covers in part, are as bright as their part, and the disc is round.
 //!
 //! # Practice
 //! One texture read, only inside the square; a root within 25 degrees. By day it is some 60,000 times as bright as white: what is below 65504 at every hour fits half
@@ -47,12 +48,12 @@ uniforms! {
         lod: f32,
         /// Radiance of the middle of the disc.
         disc: Vec3,
-        /// Nothing.
-        _pad: f32,
+        /// The brightest that is shown of it.
+        brightest: f32,
         /// What the lens scatters, over the inverse cube of the angle in radians.
         glare: Vec3,
         /// Nothing.
-        _pad2: f32,
+        _pad: f32,
     }
 }
 
@@ -74,8 +75,13 @@ const GLARE_END_COSINE: f32 = 0.906_307_8;
 /// Its inverse cube there, in 1 / rad^3: what is taken off it everywhere, so that it ends without an edge.
 pub const GLARE_END: f32 = 12.325;
 
+/// The brightest that a display shows of the disc, exposed: every tone curve has come to white there.
+const BRIGHTEST: f32 = 12.0;
+/// Beyond what a target of radiance holds.
+const NO_DISPLAY: f32 = 1e9;
+
 /// The sun's share of the uniforms. `texels` is the side of the texture, `pixel_rad` that of a pixel; `shown` is
-/// whether it is drawn at all, `lens` whether what a lens scatters is.
+/// whether it is drawn at all, `exposure` that of a display, which has a lens. A target of radiance has none.
 pub fn uniforms(
     light: &Light,
     rays: &Rays,
@@ -83,8 +89,9 @@ pub fn uniforms(
     levels: usize,
     pixel_rad: f32,
     shown: bool,
-    lens: bool,
+    exposure: Option<f32>,
 ) -> SunUniforms {
+    let lens = exposure.is_some();
     let radius = SUN_RADIUS_RAD.max(LEAST_RADIUS_PX * pixel_rad);
     // Half the texture's side is the disc's edge (see the role's channel meanings).
     let half_side = 2.0 * radius;
@@ -107,6 +114,7 @@ pub fn uniforms(
         up: up / half_side,
         lod,
         disc: light.disc / (radius * radius * MEAN_DISC),
+        brightest: exposure.map_or(NO_DISPLAY, |exposure| BRIGHTEST / exposure.max(1e-6)),
         glare: light.ground_sunlight
             * (if is_shown && lens {
                 glare_of_white()

@@ -6,17 +6,16 @@ fn sun_added(radiance: vec3f, direction: vec3f, share: f32) -> vec3f {
     if cosine <= uniforms.sun.least_cosine {
         return radiance;
     }
-    return radiance + share * sun_radiance(direction, cosine);
-}
-
-fn sun_radiance(direction: vec3f, cosine: f32) -> vec3f {
     let sun = uniforms.sun;
     let root = inverseSqrt(2.0 - 2.0 * min(cosine, 1.0) + SUN_GLARE_CORE);
     let glare = sun.glare * max(root * root * root - SUN_GLARE_END, 0.0);
     let place = vec2f(dot(direction, sun.right), -dot(direction, sun.up));
+    let around = radiance + share * glare;
     if max(abs(place.x), abs(place.y)) >= 1.0 {
-        return glare;
+        return around;
     }
-    let disc = textureSampleLevel(sun_texture, clamp_sampler, 0.5 + 0.5 * place, sun.lod).r;
-    return glare + sun.disc * (disc * smoothstep(-SUN_HORIZON, SUN_HORIZON, direction.y));
+    let covered = textureSampleLevel(sun_texture, clamp_sampler, 0.5 + 0.5 * place, sun.lod).r;
+    let disc = share * sun.disc;
+    let shown = min(1.0, sun.brightest / max(max(disc.r, disc.g), max(disc.b, 1e-6)));
+    return around + disc * (shown * covered * smoothstep(-SUN_HORIZON, SUN_HORIZON, direction.y));
 }

@@ -10,4 +10,6 @@ pub mod march;
 #[cfg(feature = "octaves")]
 pub mod octaves;
 pub mod packed;
+#[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
+pub mod photo;
 pub mod shared;

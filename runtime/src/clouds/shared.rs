@@ -82,7 +82,7 @@ pub const RIM: f32 = 2.5;
 /// The Great and Volumetric", SIGGRAPH 2013 Talks, have a sum of such terms; here it is one. Numbers here and below are chosen by eye.
 pub const MULTIPLE: [f32; 2] = [0.5, 0.3];
 /// Light that is scattered once: its share to all sides, and by the phase function.
-pub const SINGLE: [f32; 2] = [0.28, 0.32];
+pub const SINGLE: [f32; 2] = [0.28, 0.28];
 /// The phase function: weight and asymmetry of a lobe of Henyey and Greenstein forwards.
 pub const FORWARD: [f32; 2] = [0.5, 0.8];
 /// Its other half, which goes backwards a little more: `a - b cos`.

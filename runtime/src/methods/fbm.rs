@@ -5,6 +5,7 @@ use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::fbm::{self, coverage, map, pack};
+use crate::clouds::photo;
 use crate::device::context::Context;
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
@@ -25,7 +26,7 @@ impl CloudMethod for Fbm {
     }
 
     fn parts(&self) -> &'static [Part] {
-        &[fbm::PART, map::PART, pack::PART]
+        &[photo::PART, fbm::PART, map::PART, pack::PART]
     }
 
     fn own_layout<'a>(&self, layouts: &'a Layouts) -> Option<&'a wgpu::BindGroupLayout> {

@@ -5,7 +5,7 @@ use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::lit::{self, coverage, light, map, paper, shadow};
-use crate::clouds::shared;
+use crate::clouds::{photo, shared};
 use crate::device::context::Context;
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
@@ -26,7 +26,7 @@ impl CloudMethod for Lit {
     }
 
     fn parts(&self) -> &'static [Part] {
-        &[lit::PART, paper::PART, map::PART, shadow::PART]
+        &[photo::PART, lit::PART, paper::PART, map::PART, shadow::PART]
     }
 
     fn own_layout<'a>(&self, layouts: &'a Layouts) -> Option<&'a wgpu::BindGroupLayout> {
@@ -54,6 +54,7 @@ impl CloudMethod for Lit {
             &frame.view,
             frame.light.sun_direction,
             &uniforms.clouds,
+            frame.pack.cirrus_spreads,
         );
         uniforms.shadow = shadow::uniforms(params, &frame.view, &uniforms.lit);
     }

@@ -5,6 +5,7 @@ use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::octaves::{self, coverage, map};
+use crate::clouds::photo;
 use crate::device::context::Context;
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
@@ -21,7 +22,7 @@ impl CloudMethod for Octaves {
     }
 
     fn parts(&self) -> &'static [Part] {
-        &[octaves::PART, map::PART]
+        &[photo::PART, octaves::PART, map::PART]
     }
 
     fn own_layout<'a>(&self, layouts: &'a Layouts) -> Option<&'a wgpu::BindGroupLayout> {

@@ -53,6 +53,9 @@ pub struct SkyParams {
     pub method: Method,
     /// How they are shaded. A change of it makes shaders anew.
     pub shading: Shading,
+    /// How much of the large shapes of [`Method::Octaves`], [`Method::Fbm`] and [`Method::Lit`] is the photograph's, as the square root of its
+    /// share of their variance, 0 (as published) to 1.
+    pub photo: f32,
     /// Of [`Method::Octaves`].
     pub octaves: OctaveParams,
     /// Of [`Method::Fbm`].
@@ -116,6 +119,7 @@ impl Default for SkyParams {
             perez: PerezParams::default(),
             method: Method::Packed,
             shading: Shading::Scattered,
+            photo: 0.6,
             octaves: OctaveParams::default(),
             fbm: FbmParams::default(),
             lit: LitParams::default(),

@@ -18,6 +18,15 @@ const PLAIN: &[Method] = &[
     #[cfg(feature = "sprites")]
     Method::Sprites,
 ];
+/// Those with noise of their own.
+const MAPPED: &[Method] = &[
+    #[cfg(feature = "octaves")]
+    Method::Octaves,
+    #[cfg(feature = "fbm")]
+    Method::Fbm,
+    #[cfg(feature = "lit")]
+    Method::Lit,
+];
 const OCTAVES: &[Method] = &[
     #[cfg(feature = "octaves")]
     Method::Octaves,
@@ -81,6 +90,8 @@ pub const SETTINGS: &[Setting] = settings! {
             = text(choice(&text::SHADINGS), text::shading, text::set_shading);
         "upper" "Upper layer" "Amount of a thin upper layer, 0 (none) to 1"
             = plain!(upper_layer, UNIT).of(PLAIN).value("U").range_said().blends();
+        "photo" "Photograph" "How much of the clouds' large shapes is the photograph's, 0 (as published) to 1"
+            = plain!(photo, UNIT).of(MAPPED).value("P").range_said().blends();
         "octaves" "Octaves" "How many octaves are summed"
             = count("octaves.count", MAX_OCTAVES, |params: &mut SkyParams| &mut params.octaves.count)
                 .of(OCTAVES).value("N").command_help("How many are summed, 1 to 8");

@@ -6,6 +6,8 @@ use crate::clear_sky::light::LitSky;
 #[cfg(feature = "perez")]
 use crate::clear_sky::perez;
 use crate::clear_sky::{flares, galaxy, ground, skybox, stars, sun, table};
+#[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
+use crate::clouds::photo;
 use crate::clouds::shared::{self, CloudView};
 use crate::device::pipeline::Variant;
 use crate::frame::Uniforms;
@@ -74,6 +76,10 @@ impl PackData {
             flash: Vec3::ZERO,
             pack: self,
         };
+        #[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
+        {
+            uniforms.photo = photo::uniforms(self.photo, params.photo);
+        }
         for method in Method::DOMES {
             method.clouds().write(&mut uniforms, &frame);
         }
@@ -119,8 +125,8 @@ impl PackData {
         }
         let (texels, levels) = self.sun;
         // A lens's glare is the display's affair.
-        let lens = step > 0.0;
-        uniforms.sun = sun::uniforms(&light, &rays, texels, levels, pixel, params.sun, lens);
+        let exposure = (step > 0.0).then(|| params.exposure_factor());
+        uniforms.sun = sun::uniforms(&light, &rays, texels, levels, pixel, params.sun, exposure);
         uniforms.stars = stars::uniforms(
             self.stars,
             &self.star_units,

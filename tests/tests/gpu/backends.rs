@@ -108,7 +108,8 @@ fn a_slightly_different_sky_is_told_apart() {
     let are_alike = gpus.iter().all(|gpu| gpu.is_llvmpipe);
     for method in Method::ALL {
         let params = defaults(method);
-        let cover = params.cover + 0.05;
+        // A byte of the photo may move the edges of clouds by so much.
+        let cover = params.cover + if method == Method::Octaves { 0.1 } else { 0.05 };
         let both = [params, SkyParams { cover, ..params }];
         let [vulkan, gl] = [0, 1].map(|i: usize| {
             let (gpu, sky) = (&gpus[i], &mut skies[i]);

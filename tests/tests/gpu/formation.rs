@@ -1,6 +1,6 @@
 //! What changes a map beside its motion, new states of octaves and a sun that moves on, never makes it jump.
 
-use welkin_pack::LayerKind;
+use welkin_pack::{LayerKind, Role};
 use welkin_runtime::internals::clouds::fbm::pack::SHADE_BYTES;
 use welkin_runtime::internals::clouds::lit::map::WEIGHTS;
 use welkin_runtime::internals::clouds::octaves::map::NOISE_SIDE;
@@ -9,6 +9,8 @@ use welkin_runtime::params::{LitLayer, LitParams};
 use welkin_runtime::{Camera, Method, Sky, SkyParams};
 use welkin_tests::lit_map::even;
 use welkin_tests::octaves_map::{most_change, most_change_of_amount};
+use welkin_tests::photo::Photo;
+use welkin_tests::texture::Texture;
 use welkin_tests::{gpu, lit_map, pack};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -120,13 +122,18 @@ const LIT_CHANNELS: [usize; 3] = [1, 2, 3];
 #[test]
 fn the_map_of_layers_changes_by_what_its_second_read_does() {
     let (facts, kinds) = (facts(), lit_map::kinds(pack::default_pack()));
+    let clouds = Texture::new(pack::default_pack(), Role::Clouds);
     let mut sky = gpu::sky(pack::default_pack(), FORMAT);
     for kind in LayerKind::ALL {
         let params = layer(kind);
         for seconds in [0.0, 100.0, 239.99, 1e6] {
             let moments = [seconds, seconds + FRAME_S];
             let [from, to] = moments.map(|t| facts.uniforms(&params, &view(), t, 0.0).lit);
-            let most = lit_map::most_change(&from, &to, &kinds, params.shading)[0];
+            let photo = Photo {
+                clouds: &clouds,
+                uniforms: facts.uniforms(&params, &view(), seconds, 0.0).photo,
+            };
+            let most = lit_map::most_change(&from, &to, &kinds, &photo, params.shading)[0];
             let [before, after] = moments.map(|t| {
                 gpu::prepare(&mut sky, &params, &view(), t);
                 LIT_CHANNELS.map(|channel| bytes(&sky, channel))
@@ -243,7 +250,11 @@ fn the_formation_interval_says_how_fast() {
         mean_apart(&a, &b)
     };
     let mut octaves = |formation_interval_s: f32| {
-        let mut params = octaves();
+        // The photo's shapes stay.
+        let mut params = SkyParams {
+            photo: 0.0,
+            ..octaves()
+        };
         params.octaves.formation_interval_s = formation_interval_s;
         apart(&params, 0)
     };
@@ -256,7 +267,10 @@ fn the_formation_interval_says_how_fast() {
     assert!((70.0..100.0).contains(&fast), "{fast}");
     assert!(slow < 1.0, "{slow}");
     let mut lit = |formation_interval_s: f32| {
-        let mut params = layer(LayerKind::Stratocumulus);
+        let mut params = SkyParams {
+            photo: 0.0,
+            ..layer(LayerKind::Stratocumulus)
+        };
         params.lit.formation_interval_s = formation_interval_s;
         apart(&params, 1)
     };

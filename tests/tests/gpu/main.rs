@@ -25,6 +25,7 @@ mod sky_light;
 mod skybox;
 mod sprites;
 mod stars;
+mod sun;
 mod tonemap;
 mod twins;
 mod weather;

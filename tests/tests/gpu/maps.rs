@@ -183,7 +183,7 @@ fn assert_layers_agree(cases: &[(SkyParams, f64)]) {
     for (params, seconds) in cases {
         gpu::prepare(&mut sky, params, &camera(), *seconds);
         let frame = twin.frame_without_map(params, &camera(), *seconds);
-        let bounds = lit_map::bounds(&frame.uniforms.lit, &kinds, params.shading);
+        let bounds = lit_map::bounds(&frame.uniforms.lit, &kinds, &frame.photo(), params.shading);
         let layers = frame.top_of_map().into_iter().zip(bounds);
         let found = gpu::read_map(&sky);
         for (index, ((expected, bounds), found)) in layers.zip(&found).enumerate() {

@@ -257,6 +257,7 @@ fn lit_formed(facts: &PackData, params: &SkyParams, frame: &Frame, seconds: f64)
         &frame.uniforms.lit,
         &after,
         &lit_map::kinds(pack::default_pack()),
+        &frame.photo(),
         params.shading,
     )
 }

@@ -21,9 +21,9 @@ const SIDE: u32 = 256;
 const BOUND_OKTAS: f32 = 0.5;
 
 /// Moments and places of each seed, at most. What stands over the viewer is a tile of the clouds or less, with room for some tens
-/// of them, so one frame of half a sky scatters by 0.2 to 0.6 okta; five to fifteen frames (of five seeds) tell 0.5 at three
-/// deviations of their mean. There are as many as it takes.
-const MOST_FRAMES: u32 = 3;
+/// of them, so one frame of half a sky scatters by 0.2 to 0.8 okta, most where a photo gathers clouds; five to twenty-five frames (of five
+/// seeds) tell 0.5 at three deviations of their mean. There are as many as it takes.
+const MOST_FRAMES: u32 = 5;
 
 /// Five packs, baked once.
 fn packs() -> &'static [Pack] {

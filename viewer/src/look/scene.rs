@@ -39,6 +39,7 @@ const fn scene(
 }
 
 const NOON: Scene = scene("noon", 0.45, 0.6, 0.2, [100.0, 17.0]);
+/// The sun is three degrees high, and its light comes from the side.
 const SUNSET: Scene = scene("sunset", 0.742, 0.55, 0.2, [270.0, 14.0]);
 const STORM: Scene = scene("storm", 0.42, 0.95, 0.8, [40.0, 15.0]);
 
@@ -48,8 +49,8 @@ pub const MEASURED: [Scene; 3] = [NOON, SUNSET, STORM];
 /// The skies of the page.
 pub const SHOWN: [Scene; 8] = [
     NOON,
-    SUNSET,
-    scene("away", 0.742, 0.55, 0.2, [90.0, 14.0]),
+    scene("sunset", 0.752, 0.55, 0.2, [270.0, 14.0]),
+    scene("away", 0.752, 0.55, 0.2, [90.0, 14.0]),
     STORM,
     scene("dawn", 0.262, 0.5, 0.2, [92.0, 14.0]),
     scene("night", 0.03, 0.5, 0.2, [200.0, 34.0]),

@@ -12,6 +12,7 @@
 //! - The two colours are reflectances; the light of the time of day falls on them. By default the shade halves sunlight, of which
 //!   [`crate::clouds::shared`] says what is scattered to the eye: then the lit colour is that of sunlight, and between both lies that of
 //!   skylight. With [`Shading::Paper`] the shade goes from one to the other, as in the article.
+//! - The photograph's large shapes take a part of the sum's variance ([`crate::clouds::photo`]). In an overcast heights along the ray are never below it.
 //! - The dome reads the map a second time, finer: four octaves of 8 to 64 cells are soft so near to the eye. It roughens
 //!   edges only.
 //!
@@ -58,8 +59,8 @@ uniforms! {
         offset: Vec2,
         /// Level of detail at distance 1.
         lod_bias: f32,
-        /// Nothing.
-        _pad: f32,
+        /// m for the heights along the ray.
+        ray_slope: f32,
         /// The article's m: what the sum of octaves is multiplied by.
         slope: f32,
         /// The article's n: what is added then.
@@ -82,6 +83,10 @@ uniforms! {
         mean: f32,
         /// n for the heights along the ray.
         ray_intercept: f32,
+        /// Nothing.
+        _pad: Vec3,
+        /// Standard deviation of the sum of octaves.
+        spread: f32,
         /// Where octaves lie, two a vector.
         offsets: [Vec4; 4],
         /// Weights of octaves, four a vector.
@@ -117,8 +122,13 @@ const START: DVec2 = DVec2::new(0.41, 0.27);
 
 /// From a to b in standard deviations of the sum, at sharpness 0 and 1.
 const SLOPE: [f32; 2] = [3.6, 0.4];
+/// How far a sinks in an overcast, as a share of the way from a to b.
+const OVERCAST_SINK: f32 = 1.6;
 /// The lowest that a goes for the heights along the ray, in standard deviations from the mean.
 const LOWEST_RAY: f32 = -0.8;
+/// The same in an overcast, where no place is without height, and how much less heights differ there.
+const OVERCAST_RAY: f32 = -3.0;
+const OVERCAST_EVENED: f32 = 0.3;
 /// The farthest that a goes from the mean, in standard deviations: beyond it is nothing.
 const FARTHEST: f32 = 4.0;
 
@@ -137,7 +147,8 @@ pub fn uniforms(
     // Tiles that the slowest octave goes.
     let way = MAX_WIND * f64::from(params.speed) * view.seconds / tile;
     let (mean, spread) = map::mean_and_spread(octaves);
-    let [slope, intercept, ray_intercept] = remap(params.cover, own.sharpness, mean, spread);
+    let [slope, intercept] = remap(params.cover, own.sharpness, mean, spread);
+    let [ray_slope, ray_intercept] = remap_of_ray(params.cover, own.sharpness, mean, spread);
     let seen = axes * near;
     FbmUniforms {
         east_axis: seen.x_axis.as_vec2(),
@@ -155,23 +166,36 @@ pub fn uniforms(
         sun_step: pack::step(sun, TURN),
         mean,
         ray_intercept,
+        ray_slope,
+        spread,
         offsets: bytemuck::cast(map::offsets(way)),
         weights: bytemuck::cast(map::weights(octaves)),
         ..Default::default()
     }
 }
 
-/// The article's m and n: `m = 1 / (b - a)`, `n = -a / (b - a)`; and n for the heights along the ray.
-///
-/// In an overcast sky every height would be far above the ray: there a stays at what leaves light and shade.
-fn remap(cover: f32, sharpness: f32, mean: f32, spread: f32) -> [f32; 3] {
-    let slope = SLOPE[0] + (SLOPE[1] - SLOPE[0]) * sharpness;
-    let quantile = normal_quantile(1.0 - cover);
+/// The article's m and n: `m = 1 / (b - a)`, `n = -a / (b - a)`.
+fn remap(cover: f32, sharpness: f32, mean: f32, spread: f32) -> [f32; 2] {
+    let slope = deviations(sharpness);
     // An overcast has no holes: a sinks until even the thinnest place is opaque.
-    let a = mean + spread * (quantile - slope * overcast_weight(cover));
-    let a_of_ray = mean + spread * quantile.max(LOWEST_RAY);
+    let sunk = OVERCAST_SINK * slope * overcast_weight(cover);
+    let a = mean + spread * (normal_quantile(1.0 - cover) - sunk);
     let m = 1.0 / (spread * slope);
-    [m, -a * m, -a_of_ray * m]
+    [m, -a * m]
+}
+
+/// The same for the heights along the ray. In an overcast sky every height would be far above it: there a stays at what leaves light and shade.
+fn remap_of_ray(cover: f32, sharpness: f32, mean: f32, spread: f32) -> [f32; 2] {
+    let weight = overcast_weight(cover);
+    let alone = normal_quantile(1.0 - cover).max(LOWEST_RAY);
+    let a = mean + spread * (alone + (OVERCAST_RAY - alone) * weight);
+    let m = (1.0 - OVERCAST_EVENED * weight) / (spread * deviations(sharpness));
+    [m, -a * m]
+}
+
+/// From a to b, in standard deviations of the sum.
+fn deviations(sharpness: f32) -> f32 {
+    SLOPE[0] + (SLOPE[1] - SLOPE[0]) * sharpness
 }
 
 /// The z below which a share of the normal distribution lies, by bisection of the shader's own approximation.
@@ -195,7 +219,7 @@ pub fn overcast(fbm: &FbmUniforms, clouds: &CloudUniforms, shading: Shading) -> 
 
 /// Radiance of a place with this sum of octaves, where the sky around has its mean: heights along the ray are those of the map.
 fn radiance_at(fbm: &FbmUniforms, clouds: &CloudUniforms, shading: Shading, amount: f32) -> Vec3 {
-    let height = fbm.slope * amount + fbm.ray_intercept;
+    let height = fbm.ray_slope * amount + fbm.ray_intercept;
     let inside = map::DEPTHS
         .iter()
         .map(|depth| (height - depth).max(0.0))
@@ -222,13 +246,13 @@ mod tests {
     fn the_remap_is_the_articles_line() {
         let (mean, spread) = (0.5, 0.1);
         for (cover, sharpness) in [(0.2, 0.0), (0.5, 0.5), (0.8, 1.0)] {
-            let [m, n, _] = remap(cover, sharpness, mean, spread);
+            let [m, n] = remap(cover, sharpness, mean, spread);
             let (a, b) = (-n / m, (1.0 - n) / m);
-            let slope = SLOPE[0] + (SLOPE[1] - SLOPE[0]) * sharpness;
+            let slope = deviations(sharpness);
             assert!((b - a - spread * slope).abs() < 1e-5);
             assert!((m - 1.0 / (b - a)).abs() < 1e-2 && (n + a / (b - a)).abs() < 1e-2);
         }
-        let [m, n, _] = remap(0.5, 0.5, mean, spread);
+        let [m, n] = remap(0.5, 0.5, mean, spread);
         assert!(
             (-n / m - mean).abs() < 1e-4,
             "half the sky is above the mean"
@@ -252,7 +276,7 @@ mod tests {
     #[test]
     fn a_shut_sky_is_opaque_where_it_is_thinnest_and_a_clear_one_empty_where_it_is_thickest() {
         let height = |cover: f32, z: f32| {
-            let [m, n, _] = remap(cover, 0.45, 0.5, 0.1);
+            let [m, n] = remap(cover, 0.45, 0.5, 0.1);
             m * (0.5 + 0.1 * z) + n
         };
         assert!(height(1.0, -3.9) >= 1.0, "{}", height(1.0, -3.9));

@@ -19,9 +19,10 @@
 //! 256x256 texels. Two reads a texel and layer by the paper's shading: R is `LT` (eq. 3), G the amount of cloud before cover, B the opacity, A the
 //! shade. Else eight, or sixteen under an overcast: R is what is left of light that is scattered many times, A the height.
 
-use glam::Vec3;
-use welkin_pack::LayerKind;
+use glam::{Vec2, Vec3};
+use welkin_pack::{LayerKind, Texture};
 
+use super::look::look;
 use crate::device::layouts::Layouts;
 use crate::device::map::{FORMAT, Map};
 use crate::geometry::part::{Part, Value};
@@ -65,8 +66,9 @@ pub const WEIGHTS: [f32; 2] = [0.6, 0.4];
 
 /// How far the fibres of cirrus are bent, in tiles: across by waves of one and of half a tile, along by waves of one and of a third.
 pub const BENDS: [f32; 4] = [0.10, 0.05, 0.09, 0.04];
-/// Level at which fibres are read, two tiles of them to one of the map: finer ones would be stairs of its texels overhead.
-pub const FIBRE_LEVEL: f32 = 1.0;
+/// Level at which fibres are read, two tiles of them to one of the map: finer ones would be stairs of its texels overhead. The mean of ranks is no rank,
+/// so they are made even again by their spread ([`spreads`]).
+pub const FIBRE_LEVEL: f32 = 2.0;
 /// Height of an overcast where its rolls have their mean, what rolls and the amount of cloud add, and how round its least height is. Numbers here
 /// and below are chosen by eye.
 pub const ROLLS: [f32; 4] = [0.5, 1.5, 0.5, 0.1];
@@ -84,6 +86,20 @@ pub const OWN: f32 = 0.5;
 pub const RELIEF: f32 = 0.25;
 pub const RELIEF_FULL: f32 = 4.0;
 pub const EVENED_RELIEF: f32 = 0.7;
+
+/// Standard deviations of the ranks of fibres and of lumps, as coarse as a layer of cirrus reads them; `layers` is the pack's texture.
+pub(crate) fn spreads(layers: &Texture) -> Vec2 {
+    let levels = [
+        (LayerKind::Cirrus, FIBRE_LEVEL),
+        (LayerKind::Cumulus, look(LayerKind::Cirrus).second_level),
+    ];
+    let spread = |(kind, level): (LayerKind, f32)| {
+        let level = (level as usize).min(layers.levels.len() - 1);
+        let (_, spread) = layers.image(level, kind as u32).mean_and_spread(3);
+        spread.max(1.0 / 255.0)
+    };
+    Vec2::from(levels.map(spread))
+}
 
 /// The pass on a device.
 #[derive(Debug)]

@@ -53,9 +53,14 @@ fn lit_second(layer: LitLayerUniforms, uv: vec2f, level: f32) -> vec4f {
 }
 
 fn lit_noise(layer: LitLayerUniforms, uv: vec2f, level: f32) -> LitNoise {
-    let blend = LIT_FIRST_WEIGHT * lit_first(i32(layer.kind), uv, level)
-        + LIT_SECOND_WEIGHT * lit_second(layer, uv, level + layer.second_level);
-    return LitNoise(blend.rg, blend.b, lit_even(blend.a));
+    var first = lit_first(i32(layer.kind), uv, level);
+    var second = lit_second(layer, uv, level + layer.second_level);
+    if layer.spreads.x > 0.0 {
+        first.a = normal_share((first.a - 0.5) / layer.spreads.x);
+        second.a = normal_share((second.a - 0.5) / layer.spreads.y);
+    }
+    let blend = LIT_FIRST_WEIGHT * first + LIT_SECOND_WEIGHT * second;
+    return LitNoise(blend.rg, blend.b, photo_over_even(lit_even(blend.a), uv));
 }
 
 // How high the cloud of a place is, 1 for a thick one. An overcast is as high everywhere but for its rolls.

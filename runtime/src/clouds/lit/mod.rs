@@ -24,6 +24,7 @@
 //! - The lowest layer of an iteration is read three times by default: where the ray meets its base, and farther away, where the ray has risen into the
 //!   clouds. So one sees sides, and towards the horizon clouds close to a bank, which a flat layer's do not.
 //! - The second read is of cumulus for every kind: its lumps gather the first read's. Fibres of cirrus are bent ([`map::BENDS`]).
+//! - The photograph's large shapes gather clouds ([`crate::clouds::photo`]).
 //! - Normals are those of a flat layer, wherever it hangs on the dome: the dome brings the horizon near, clouds do not lean. So all of `LT`
 //!   is in the map.
 //! - In the night the moon lights the clouds; it is full and stands opposite the sun.
@@ -43,6 +44,7 @@ pub mod paper;
 pub mod shadow;
 
 use glam::{DMat2, DVec2, Vec2, Vec3, Vec3Swizzles};
+use welkin_pack::LayerKind;
 
 use self::cut::{base_share, cut, shut, sided};
 use self::look::look;
@@ -120,8 +122,8 @@ uniforms! {
         side: f32,
         /// And at most.
         most_side: f32,
-        /// Nothing.
-        _pad2: Vec2,
+        /// Standard deviations of fibres and of lumps as coarse as cirrus reads them; 0 for other kinds, which read ranks.
+        spreads: Vec2,
     }
 
     /// Clouds of the lit method.
@@ -182,7 +184,7 @@ pub const BANK: [f32; 2] = [0.05, 0.32];
 pub const BANK_BLUR: f32 = 0.6;
 /// How much coarser clouds on the horizon are read, and the sine of the elevation from which all is sharp: there the air and the clouds' height, which
 /// a flat layer lacks, take what is small.
-pub const SOFTER: [f32; 2] = [2.8, 0.6];
+pub const SOFTER: [f32; 2] = [3.2, 0.65];
 /// The least radial stretch of a texel, over the tangential one, that chooses the level of detail.
 pub const LEAST_STRETCH: f32 = 0.25;
 
@@ -245,6 +247,7 @@ pub fn uniforms(
     view: &CloudView,
     sun: Vec3,
     clouds: &CloudUniforms,
+    spreads: Vec2,
 ) -> LitUniforms {
     let own = &params.lit;
     let f2 = own.flattening * own.flattening;
@@ -253,6 +256,9 @@ pub fn uniforms(
     let mut count = 0;
     for (slot, (index, cover)) in layers.iter_mut().zip(drawn(params)) {
         *slot = layer_uniforms(params, view, [count, index], cover, sun);
+        if params.lit.layers[index].kind == LayerKind::Cirrus {
+            slot.spreads = spreads;
+        }
         count += 1;
     }
     LitUniforms {

@@ -16,7 +16,7 @@ fn at(params: &SkyParams, seconds: f64, place_m: DVec3) -> LitUniforms {
         seconds,
         place_m,
     };
-    uniforms(params, &view, SUN, &CloudUniforms::default())
+    uniforms(params, &view, SUN, &CloudUniforms::default(), Vec2::ONE)
 }
 
 #[test]

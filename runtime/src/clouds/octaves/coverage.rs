@@ -86,7 +86,8 @@ pub(crate) fn mean_radiance(octaves: &OctaveUniforms, clouds: &CloudUniforms) ->
         let amount = (i as f32 + 0.5) / NODES as f32;
         let alpha = low_opacity(octaves, (amount - octaves.low.threshold).max(0.0));
         let above = (amount - octaves.low.threshold.max(0.0)).max(0.0);
-        let depth = THIN_DEPTH + (octaves.extinction * above - THIN_DEPTH) * alpha;
+        let passed = octaves.base_depth + octaves.extinction * above;
+        let depth = THIN_DEPTH + (passed - THIN_DEPTH) * alpha;
         let height = BODY_HEIGHTS[0] + (BODY_HEIGHTS[1] - BODY_HEIGHTS[0]) * alpha;
         let whole = 1.0 - (1.0 - alpha) * clear;
         light += whole * lit(clouds, scattered(clouds, None, depth, height));

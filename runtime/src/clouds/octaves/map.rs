@@ -26,7 +26,7 @@ use half::f16;
 
 use crate::device::layouts::{Layouts, array_layers};
 use crate::device::map::Plane;
-use crate::geometry::math::{NORMAL_BEND, NORMAL_SLOPE, mix};
+use crate::geometry::math::mix;
 use crate::geometry::part::{Part, Value};
 use crate::params::{MAX_OCTAVES, SkyParams};
 
@@ -34,8 +34,6 @@ use crate::params::{MAX_OCTAVES, SkyParams};
 pub const PART: Part = Part {
     constants: &[
         ("OCTAVE_NOISE_SIDE", Value::F32(NOISE_SIDE as f32)),
-        ("NORMAL_SLOPE", Value::F32(NORMAL_SLOPE)),
-        ("NORMAL_BEND", Value::F32(NORMAL_BEND)),
         ("OCTAVE_RELIEF_COUNT", Value::Int(RELIEF_COUNT)),
     ],
     structs: &[],

@@ -30,12 +30,6 @@ fn octaves_noise(uv: vec2f, octave: i32) -> f32 {
     return textureSampleLevel(layers_texture, repeat_sampler, uv, octave, 0.0).r;
 }
 
-// The share of a normal distribution below z: E. Page, "Approximations to the Cumulative Normal Function and its
-// Inverse for Use on a Pocket Calculator", Applied Statistics 26(1), 1977.
-fn normal_share(z: f32) -> f32 {
-    return 0.5 + 0.5 * tanh(clamp(NORMAL_SLOPE * z * (1.0 + NORMAL_BEND * z * z), -9.0, 9.0));
-}
-
 // The weighted octaves from the first up to `count`.
 fn octaves_sum(uv: vec2f, first: i32, count: i32) -> f32 {
     var sum = 0.0;
@@ -55,8 +49,9 @@ fn fs_octaves_map(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let large = min(count, OCTAVE_RELIEF_COUNT);
     // Finer octaves have no slope over a step: they would only add noise to the relief.
     let small = octaves_sum(uv, large, count);
-    let amount = normal_share(octaves_sum(uv, 0, large) + small);
-    let towards_sun = normal_share(octaves_sum(uv + octaves.sun_step, 0, large) + small);
+    let amount = normal_share(photo_over(octaves_sum(uv, 0, large) + small, uv));
+    let there = uv + octaves.sun_step;
+    let towards_sun = normal_share(photo_over(octaves_sum(there, 0, large) + small, there));
     let relief = octaves.relief * (amount - towards_sun);
     let thickness = amount - octaves.low.threshold;
     let low = octaves_alpha(thickness, octaves.exponent);

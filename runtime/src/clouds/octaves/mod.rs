@@ -14,6 +14,7 @@
 //! - The paper's clouds are flat white. Here thickness and the difference to the amount one step towards the sun say how much light comes
 //!   through, and [`crate::clouds::shared`] what of it is scattered to the eye. With [`crate::params::Shading::Paper`] they darken a grey.
 //! - Density thickens: it multiplies the exponent. The foot of the opacity is softened, as in the packed method.
+//! - The photograph's large shapes take a part of the sum's variance ([`crate::clouds::photo`]). Streaks of the high dome are bent by a shear, and read coarser.
 //! - The veil of the high dome rises as a smoothstep that is half full where the exponentiation is: the same to the eye,
 //!   without an exponential a pixel.
 //! - A second, finer read of the same map roughens the low clouds: the map has one texel a degree.
@@ -49,6 +50,8 @@ pub const PART: Part = Part {
         ("OCTAVE_EDGE", Value::F32(EDGE)),
         ("OCTAVE_THIN", Value::F32(THIN)),
         ("OCTAVE_MIDDLE_OPACITY", Value::F32(MIDDLE_OPACITY)),
+        ("OCTAVE_VEIL_LEVEL", Value::F32(VEIL_LEVEL)),
+        ("OCTAVE_BEND", Value::F32(BEND)),
         ("OCTAVE_HIGH_OPACITY", Value::F32(HIGH_OPACITY)),
         ("OCTAVE_FINER_START", Value::Vec2(FINER_START)),
     ],
@@ -91,8 +94,8 @@ uniforms! {
         sun_step: Vec2,
         /// Halvings of sunlight by a thickness of 1.
         extinction: f32,
-        /// Nothing.
-        _pad: f32,
+        /// Halvings that the low dome takes where it is thinnest.
+        base_depth: f32,
         /// Copies of the noise across the map, four octaves a vector.
         copies: [Vec4; 2],
         /// How many octaves are summed.
@@ -111,7 +114,7 @@ pub const FINER: f32 = 5.0;
 /// How much the second read changes the grey.
 pub const ROUGH_GREY: f32 = 0.2;
 /// How much it changes the halvings of sunlight.
-pub const ROUGH_DEPTH: f32 = 0.9;
+pub const ROUGH_DEPTH: f32 = 0.6;
 /// Halvings of sunlight that thin clouds see.
 pub const THIN_DEPTH: f32 = 0.3;
 /// The least that a cloud leaves of sunlight: a step of a byte.
@@ -131,11 +134,11 @@ const DARKENING: [f32; 2] = [0.25, 0.75];
 /// Strength of the relief at density 0 and 1.
 const RELIEF: [f32; 2] = [1.4, 0.7];
 /// How much the second read roughens the edges of the low clouds.
-const ROUGHNESS: f32 = 3.6;
+const ROUGHNESS: f32 = 1.0;
 /// How much fuzzier than the low dome the others are: a share of its exponent.
-pub const THIN: f32 = 0.35;
+pub const THIN: f32 = 0.22;
 /// Opacity of the middle and of the high dome where they are thick.
-pub const MIDDLE_OPACITY: f32 = 0.75;
+pub const MIDDLE_OPACITY: f32 = 0.65;
 /// See [`MIDDLE_OPACITY`].
 pub const HIGH_OPACITY: f32 = 0.45;
 
@@ -147,7 +150,11 @@ pub const HEIGHTS_M: [f64; 3] = [LOW_HEIGHT_M, 4000.0, 9000.0];
 const TILE: [f64; 2] = [9.0, 4.5];
 /// The same for the middle and the high dome, in their own heights; the high dome's second number is along its streaks.
 const MIDDLE_TILE: f64 = 3.6;
-const HIGH_TILE: [f64; 2] = [2.3, 9.0];
+const HIGH_TILE: [f64; 2] = [2.3, 12.0];
+/// How much coarser the high dome is read: a veil, not strokes.
+pub const VEIL_LEVEL: f32 = 1.4;
+/// How far the streaks of the high dome are bent, in tiles, as a factor on a wave of a quarter.
+pub const BEND: f32 = 1.6;
 /// How the domes are turned against the world, in radians: no two alike, none along an axis.
 const TURNS: [f64; 3] = [0.4, 1.37, 2.5];
 /// Where the wind of each dome goes (east, south), in units of the low dome's in metres a second. It veers and
@@ -166,6 +173,9 @@ const STARTS: [DVec2; 3] = [
 
 /// Step towards the sun for the relief, in heights of the layer.
 const RELIEF_STEP: f64 = 0.11;
+/// Halvings of sunlight in the thinnest places of an overcast, and how much less the others take beyond them: it is thick everywhere.
+const OVERCAST_DEPTH: f32 = 2.0;
+const OVERCAST_EVENED: f32 = 0.5;
 /// How much the cut goes below 0 in an overcast.
 const OVERCAST: f32 = 0.5;
 /// The paper's range of a colour, by which it multiplies.
@@ -223,13 +233,15 @@ pub fn uniforms(
         relief: mix(RELIEF),
         roughness: ROUGHNESS,
         sun_step,
-        extinction: mix(EXTINCTION) * way_through(sun_sine),
+        extinction: mix(EXTINCTION)
+            * way_through(sun_sine)
+            * (1.0 - OVERCAST_EVENED * overcast_weight(params.cover)),
+        base_depth: OVERCAST_DEPTH * overcast_weight(params.cover),
         copies: bytemuck::cast(map::copies(own.count)),
         count: own.count as f32,
         resolution: side as f32,
         edge_grey: mix(EDGE_GREY),
         high_contrast: -0.5 * THIN * exponent,
-        ..Default::default()
     }
 }
 

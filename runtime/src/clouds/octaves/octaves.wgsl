@@ -4,6 +4,12 @@ fn octaves_uv(dome: OctaveDome, plane: vec2f) -> vec2f {
     return dome.east_axis * plane.x + dome.south_axis * plane.y + dome.offset;
 }
 
+// Fibres are bent by a shear along them, or they would be streaks from one point of the horizon. Areas stay, and so does the share of the sky.
+fn octaves_bent(uv: vec2f) -> vec2f {
+    let turn = 2.0 * fract(uv.y) - 1.0;
+    return vec2f(uv.x + OCTAVE_BEND * turn * (abs(turn) - 1.0), uv.y);
+}
+
 // What the map holds: see map.wgsl.
 fn octaves_map_at(uv: vec2f, level: f32) -> vec4f {
     return textureSampleLevel(map_texture, repeat_sampler, uv, level);
@@ -34,7 +40,7 @@ fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
             let finer = octaves_map_at(uv * OCTAVE_FINER + OCTAVE_FINER_START, at_level + OCTAVE_FINER_LEVEL).r - 0.5;
             let alpha = clamp(cloud.g + octaves.roughness * finer * cloud.g * (1.0 - cloud.g), 0.0, 1.0);
             grey = mix(thin_grey, cloud.a + OCTAVE_ROUGH_GREY * finer, alpha);
-            let passed = max(OCTAVE_ROUGH_DEPTH * finer - log2(max(cloud.a, OCTAVE_LEAST_LIGHT)), 0.0);
+            let passed = octaves.base_depth + max(OCTAVE_ROUGH_DEPTH * finer - log2(max(cloud.a, OCTAVE_LEAST_LIGHT)), 0.0);
             depth = mix(OCTAVE_THIN_DEPTH, passed, alpha);
             body = alpha;
             clear = 1.0 - alpha;
@@ -46,8 +52,8 @@ fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
         clear *= 1.0 - alpha;
     }
     if octaves.high.threshold < 1.0 {
-        let uv = octaves_uv(octaves.high, hit.plane);
-        let thickness = octaves_map_at(uv, level + octaves.high.lod_bias).r - octaves.high.threshold;
+        let uv = octaves_bent(octaves_uv(octaves.high, hit.plane));
+        let thickness = octaves_map_at(uv, level + octaves.high.lod_bias + OCTAVE_VEIL_LEVEL).r - octaves.high.threshold;
         let full = clamp(thickness * octaves.high_contrast, 0.0, 1.0);
         let alpha = OCTAVE_HIGH_OPACITY * full * full * (3.0 - 2.0 * full);
         clear *= 1.0 - alpha;

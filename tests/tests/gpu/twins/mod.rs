@@ -135,9 +135,14 @@ fn a_slightly_different_sky_is_told_apart() {
                 cover: defaults.cover + 0.02,
                 ..defaults
             },
-            // Density only shades clouds of this method a little more.
+            // Density only shades clouds of these methods a little more.
             SkyParams {
-                density: defaults.density + if method == Method::Fbm { 0.3 } else { 0.05 },
+                density: defaults.density
+                    + match method {
+                        Method::Fbm => 0.3,
+                        Method::Lit => 0.15,
+                        _ => 0.05,
+                    },
                 ..defaults
             },
             SkyParams {
