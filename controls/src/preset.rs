@@ -144,6 +144,10 @@ impl Preset {
     pub fn of(&self, settings: &Settings) -> Result<Settings, SettingError> {
         let mut settings = *settings;
         settings.set_pairs(self.values.iter().copied())?;
+        // Who has given a date has the sun of that date.
+        if settings.params.date.is_some() {
+            return Ok(settings);
+        }
         let time = &mut settings.params.time;
         match self.hour {
             Hour::Day if !DAY.contains(time) => *time = MORNING,

@@ -97,9 +97,16 @@ impl Settings {
 
     /// Lets `seconds` of a person's time go by: the animation moves on, and the day if it has a length.
     pub fn advance(&mut self, seconds: f64) {
+        let before_s = self.at_s;
         self.at_s = (self.at_s + seconds * f64::from(self.rate)).clamp(0.0, LAST_SECOND);
         if self.day_length_s > 0.0 {
             let days = seconds / f64::from(self.day_length_s);
+            if let Some(date) = self.params.date {
+                // The animation's own seconds make it go on too.
+                let passed_s = self.at_s - before_s;
+                self.params.date = Some(date.after(86_400.0 * days - passed_s));
+                return;
+            }
             self.params.time = (f64::from(self.params.time) + days).rem_euclid(1.0) as f32;
         }
     }
@@ -117,6 +124,22 @@ mod tests {
         assert!((settings.params.time - 0.25).abs() < 1e-6);
         settings.advance(-45.0);
         assert!((settings.params.time - 0.5).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_date_goes_on_with_the_animation_or_by_the_length_of_a_day() {
+        let mut settings = Settings::default();
+        let start = "2026-06-21T18:30:00Z";
+        settings.set("date", start).unwrap();
+        settings.rate = 10.0;
+        settings.advance(60.0);
+        assert_eq!(settings.get("date").unwrap(), start, "at_s makes it go on");
+        settings.day_length_s = 60.0;
+        let shown = |s: &Settings| s.params.date.unwrap().unix_s() + s.at_s;
+        let before = shown(&settings);
+        settings.advance(30.0);
+        assert!((shown(&settings) - before - 43_200.0).abs() < 1e-3);
+        assert_eq!(settings.params.time, 0.5);
     }
 
     #[test]

@@ -41,6 +41,7 @@
 #[doc(hidden)]
 #[path = ""]
 pub mod internals {
+    pub mod almanac;
     pub mod clear_sky;
     pub mod clouds;
     pub mod device;
@@ -63,6 +64,7 @@ pub mod internals {
 pub use glam;
 pub use wgpu;
 
+pub use internals::almanac;
 #[cfg(feature = "lit")]
 pub use internals::clouds::lit::shadow;
 pub use internals::device::config::{DepthConfig, SkyConfig};

@@ -7,6 +7,7 @@ use welkin_pack::field::Hour;
 use welkin_pack::{Pack, Role, StarTexel, Texture};
 
 use crate::clear_sky::light::LitSky;
+use crate::clear_sky::moment::Moment;
 use crate::clear_sky::table::SkyTable;
 #[cfg(feature = "fbm")]
 use crate::clouds::fbm::map::Octaves;
@@ -17,7 +18,6 @@ use crate::clouds::octaves;
 #[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
 use crate::clouds::photo::Photo;
 use crate::error::{SkyError, texture};
-#[cfg(feature = "octaves")]
 use crate::geometry::math::finite;
 use crate::params::SkyParams;
 #[cfg(feature = "sprites")]
@@ -104,15 +104,19 @@ impl PackData {
         })
     }
 
+    /// Where sun and moon stand: a date goes on with the seconds. `params` are in range.
+    pub fn moment(&self, params: &SkyParams, seconds: f64) -> Moment {
+        let noon_rad = self.noon_elevation_rad;
+        match params.date {
+            None => Moment::of_time(params.time, noon_rad),
+            Some(date) => Moment::of_date(date.after(finite(seconds)), params.place, noon_rad),
+        }
+    }
+
     /// The light of a moment and its clear sky. `params` are in range.
-    pub fn lit_sky(&self, params: &SkyParams) -> LitSky {
-        LitSky::new(
-            &self.sky,
-            self.noon_elevation_rad,
-            params.time,
-            params.haze,
-            params.moon,
-        )
+    pub fn lit_sky(&self, params: &SkyParams, seconds: f64) -> LitSky {
+        let moment = self.moment(params, seconds);
+        LitSky::new(&self.sky, &moment, params.haze, params.moon)
     }
 
     /// The states of the octaves method's noise at a moment: see [`octaves::map::states`].

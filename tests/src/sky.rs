@@ -15,7 +15,7 @@ use crate::texture::Texture;
 
 /// The picture that the shader reads the clear sky of a moment from.
 pub fn texture(data: &PackData, params: &SkyParams) -> Texture {
-    let view = data.lit_sky(&params.clamped()).view;
+    let view = data.lit_sky(&params.clamped(), 0.0).view;
     Texture::from_levels(vec![view.image()], Wrap::Clamp)
 }
 
@@ -55,7 +55,7 @@ fn table(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3 {
         true => direction.xz().length().max(1e-6),
         false => 1.0,
     };
-    let sideways = direction.xz().dot(uniforms.clouds.sun_azimuth) / flat;
+    let sideways = direction.xz().dot(uniforms.sky.azimuth) / flat;
     let place = Vec2::new(sideways, up.sqrt() * (1.0 + BEND * up));
     let uv = sky.start + sky.span * place;
     let texel = texture.sample(uv.to_array(), 0.0);

@@ -64,6 +64,9 @@ export type SettingName =
   | 'skybox'
   | 'rays'
   | 'rain'
+  | 'date'
+  | 'lat'
+  | 'lon'
   | 'exposure-ev'
   | 'auto-exposure'
   | 'tonemap'
@@ -159,7 +162,7 @@ export interface Settings {
   perez?: Value;
   /** The sun's disc. */
   sun?: boolean | 'true' | 'false';
-  /** Strength of the full moon's light. From 0 to 1. */
+  /** Strength of the moon's light, 1 as it is. From 0 to 1. */
   moon?: number | string;
   /** Stars and galaxy. */
   stars?: boolean | 'true' | 'false';
@@ -173,6 +176,12 @@ export interface Settings {
   rays?: number | string;
   /** Strength of the rain, 0 (off) to 1. */
   rain?: number | string;
+  /** Moment of universal time, which takes the place of the time of day. */
+  date?: Value;
+  /** Latitude of the place, north positive. From -90 to 90 degrees. */
+  lat?: number | string;
+  /** Longitude of the place, east positive. From -180 to 180 degrees. */
+  lon?: number | string;
   /** Exposure of the picture in stops: each is twice as bright. From -16 to 16. */
   'exposure-ev'?: number | string;
   /** Whether the exposure follows the light of the sky, as a camera's does. */

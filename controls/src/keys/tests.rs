@@ -38,6 +38,13 @@ fn a_text(key: &Key, a: f64, b: f64) -> String {
             (1.5 + a) as f32
         ),
         Input::Text { .. } if b < 0.5 => "none".to_string(),
+        Input::Text { .. } if key.name == "date" => format!(
+            "{}-0{}-{}T{}:30:00Z",
+            1900 + (a * 200.0) as u32 % 200,
+            1 + (a * 1e3) as u32 % 9,
+            10 + (b * 1e3) as u32 % 19,
+            10 + (b * 1e5) as u32 % 14
+        ),
         Input::Text { .. } => format!("{},-2,{},0.5", (a * 8.0) as f32, b * 1e3),
     }
 }

@@ -7,7 +7,7 @@
 //!
 //! # Changes versus the paper
 //! The paper's `amount_sunlight` is one number (line 28). Here it is two colours, sunlight and skylight.
-//! The full moon stands opposite the sun. Its light is 400,000 times weaker; what eyes that have got used to the night see of it is a
+//! With a plain time the full moon stands opposite the sun, with a date where it is, and gives what its phase leaves ([`crate::almanac::moon`]). A full moon's light is 400,000 times weaker; what eyes that have got used to the night see of it is a
 //! constant here (`MOONLIGHT`), and the sky around it is the sun's, dimmed as much.
 //!
 //! # Practice
@@ -17,6 +17,7 @@ use glam::Vec3;
 use welkin_pack::air::{Colour, SUN_ILLUMINANCE_LX, sun_transmittance, unit_luminance_cd_m2};
 use welkin_pack::mapping;
 
+use crate::clear_sky::moment::{Hour, Moment};
 use crate::clear_sky::table::{SkyTable, SkyView};
 use crate::geometry::math::{LUMINANCE, luminance, smoothstep};
 use crate::geometry::part::{Part, Value};
@@ -40,6 +41,16 @@ pub const SUN_RADIUS_RAD: f32 = 0.004_653;
 pub struct Light {
     /// Unit direction towards the sun, or by night the moon.
     pub sun_direction: Vec3,
+    /// That towards the sun, whichever of them shines.
+    pub sun: Vec3,
+    /// That towards the moon.
+    pub moon: Vec3,
+    /// Strength of the moon's light over that of a full moon, by its setting, its phase and whether it has risen.
+    pub moonlight: f32,
+    /// The one whose azimuth the picture of the sky has at its side.
+    pub sky_direction: Vec3,
+    /// Times of day for what knows no other sun than the pack's.
+    pub hours: [Hour; 2],
     /// What it gives to clouds: the radiance of a white surface that faces it.
     pub sunlight: Vec3,
     /// The same at the ground.
@@ -70,22 +81,23 @@ pub struct LitSky {
 }
 
 impl LitSky {
-    /// At `time` (0..1) under the table of a pack, with a haze of 0..1 and a full moon of a strength of 0..1.
-    pub fn new(
-        table: &SkyTable,
-        noon_elevation_rad: f32,
-        time: f32,
-        haze: f32,
-        moon: f32,
-    ) -> LitSky {
-        let sun = Vec3::from(mapping::sun_direction(time, noon_elevation_rad));
+    /// At a moment under the table of a pack, with a haze of 0..1 and a moon of a strength of 0..1.
+    pub fn new(table: &SkyTable, moment: &Moment, haze: f32, moon: f32) -> LitSky {
+        let sun = moment.sun;
         let elevation_rad = sun.y.clamp(-1.0, 1.0).asin();
         let unit_cd_m2 = unit_luminance_cd_m2(elevation_rad);
         let depth = table.aerosol_depth(haze);
         let night = mapping::night_share(sun.y);
         let mut view = table.view(elevation_rad, haze);
+        let strength = moon * moment.moonlight;
+        let risen = smoothstep(MOON_RISES[0], MOON_RISES[1], moment.moon.y);
         let mut light = Light {
             sun_direction: sun,
+            sun,
+            moon: moment.moon,
+            moonlight: strength * risen,
+            sky_direction: sun,
+            hours: moment.hours,
             sunlight: cloud_sunlight(elevation_rad, depth, unit_cd_m2),
             ground_sunlight: ground_sunlight(elevation_rad, depth, unit_cd_m2),
             disc: sunlight(elevation_rad, depth, unit_cd_m2),
@@ -98,8 +110,8 @@ impl LitSky {
         };
         let mut luminary_rad = elevation_rad;
         if sun.y <= MOONRISE[0] {
-            let up = moon * (1.0 - smoothstep(MOONRISE[1], MOONRISE[0], sun.y));
-            luminary_rad = -elevation_rad;
+            let up = strength * (1.0 - smoothstep(MOONRISE[1], MOONRISE[0], sun.y));
+            luminary_rad = moment.moon.y.clamp(-1.0, 1.0).asin();
             // The sun's own light at that elevation, and what of it the moon's stands for.
             let unit = unit_luminance_cd_m2(luminary_rad);
             let sunlit = ground_sunlight(luminary_rad, depth, unit);
@@ -108,14 +120,27 @@ impl LitSky {
                 .view(luminary_rad, haze)
                 .scaled(dimmed)
                 .faded(NIGHT_GREY);
-            moonlit.add_opposite(&view);
+            light.sun_direction = moment.moon;
+            if moment.moon == -sun {
+                moonlit.add_opposite(&view);
+                light.sky_direction = moment.moon;
+            } else if sun.y > MOONRISE[1] {
+                // The picture has its side where the dusk is; moonlight is spread around.
+                moonlit.level(1.0);
+                view.level(1.0 - smoothstep(MOONRISE[1], DUSK_LEVELS, sun.y));
+                moonlit.add(&view);
+            } else {
+                moonlit.level(smoothstep(MOON_LEVELS, MOONRISE[1], sun.y));
+                view.level(1.0);
+                moonlit.add(&view);
+                light.sky_direction = moment.moon;
+            }
             view = moonlit;
-            light.sun_direction = -sun;
             light.sunlight = cloud_sunlight(luminary_rad, depth, unit) * dimmed;
             light.ground_sunlight = sunlit * dimmed;
             light.disc = sunlit * dimmed;
             light.is_moon = true;
-            light.dark = 1.0 - MOON_HIDES * up;
+            light.dark = 1.0 - MOON_HIDES * (up * risen).min(1.0);
         }
         if night > 0.0 {
             view.add_airglow(AIRGLOW * night);
@@ -171,6 +196,15 @@ const MOON_HIDES: f32 = 0.85;
 /// Sines of the sun's elevation between which the moon takes over: the sun's last light on clouds is gone at -0.09.
 const MOONRISE: [f32; 2] = [-0.10, -0.24];
 
+/// A sky has one side. Where the moon is not opposite the sun, it goes from the dusk's to the moon's where the light of neither has one: dusk is evened
+/// out around the horizon from this sine of the sun's elevation to the end of [`MOONRISE`], moonlight takes its side by the other. Chosen.
+const DUSK_LEVELS: f32 = -0.18;
+/// See [`DUSK_LEVELS`].
+const MOON_LEVELS: f32 = -0.30;
+
+/// Sines of the moon's elevation between which it comes to hide stars. With a plain time it stands higher than these when stars come out.
+const MOON_RISES: [f32; 2] = [-0.05, 0.09];
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -222,7 +256,8 @@ mod tests {
         // A sun that culminates in the zenith: the time of an evening at which its sine is so much.
         let at = |sine: f32| {
             let time = 0.5 + sine.acos() / std::f32::consts::TAU;
-            LitSky::new(&table, std::f32::consts::FRAC_PI_2, time, 0.0, 1.0).light
+            let moment = Moment::of_time(time, std::f32::consts::FRAC_PI_2);
+            LitSky::new(&table, &moment, 0.0, 1.0).light
         };
         let dusk = at(-0.05);
         assert!(!dusk.is_moon && dusk.sun_direction.y < 0.0 && dusk.sunlight.x > 0.0);
@@ -238,6 +273,93 @@ mod tests {
             "{ratio}"
         );
         assert!(luminance(night.ground_sunlight) < luminance(night.sunlight));
+    }
+
+    fn direction(elevation: f32, azimuth: f32) -> Vec3 {
+        Vec3::from(mapping::direction_from_angles(azimuth, elevation))
+    }
+
+    fn moment(sun_sine: f32, moon: Vec3, moonlight: f32) -> Moment {
+        Moment {
+            sun: direction(sun_sine.asin(), 0.4),
+            moon,
+            moonlight,
+            ..Moment::default()
+        }
+    }
+
+    #[test]
+    fn moonlight_follows_the_moon_s_phase_and_comes_from_where_it_is() {
+        let table = table();
+        let at = |moonlight: f32, elevation: f32| {
+            let moon = direction(elevation, 2.0);
+            let moment = moment(-0.6, moon, moonlight);
+            let light = LitSky::new(&table, &moment, 0.0, 1.0).light;
+            assert!(light.is_moon && light.sun_direction == moon);
+            light
+        };
+        let (full, half) = (at(1.0, 0.7), at(0.1, 0.7));
+        for (bright, dim) in [
+            (full.sunlight, half.sunlight),
+            (full.ground_sunlight, half.ground_sunlight),
+        ] {
+            assert!((dim / bright - 0.1).abs().max_element() < 1e-4);
+        }
+        assert!(half.dark > full.dark, "a half moon hides fewer stars");
+        // A moon that is down gives nothing and hides nothing.
+        let down = at(1.0, -0.3);
+        assert_eq!((down.ground_sunlight, down.dark), (Vec3::ZERO, 1.0));
+        assert!(luminance(down.skylight) < luminance(full.skylight));
+    }
+
+    /// A table whose light is all below the sun: the side of a sky shows.
+    fn sided() -> SkyTable {
+        let mut texture = welkin_pack::Texture {
+            format: welkin_pack::Format::Rgba16Float,
+            shape: welkin_pack::Shape::Array,
+            width: 8,
+            height: 16,
+            layers: 64,
+            levels: vec![Vec::new()],
+        };
+        for texel in 0..8 * 16 * 64 {
+            let bright = texel % 8 == 0;
+            let half: [u8; 2] = if bright { [0x00, 0x34] } else { [0x00, 0x24] };
+            texture.levels[0].extend(half.repeat(4));
+        }
+        SkyTable::new(&texture, [0.04, 0.24])
+    }
+
+    #[test]
+    fn a_sky_changes_sides_without_a_step() {
+        let table = sided();
+        let moon = direction(0.5, 2.5);
+        // Rows of the picture, turned to the world: what is seen at an azimuth, from the side's own.
+        let seen = |sine: f32| {
+            let lit = LitSky::new(&table, &moment(sine, moon, 0.8), 0.0, 1.0);
+            let image = lit.view.image();
+            let side = lit.light.sky_direction;
+            let places = crate::clear_sky::picture::Places::new([8, 16]);
+            let [start, span] = places.start_and_span();
+            (0..12)
+                .map(|i| {
+                    let towards = direction(0.0, i as f32 * 0.52);
+                    let flat = Vec3::new(side.x, 0.0, side.z).normalize();
+                    let u = start[0] + span[0] * towards.dot(flat);
+                    let x = (u * image.width as f32) as u32;
+                    image.texel(x.min(image.width - 2), 0)[1]
+                })
+                .collect::<Vec<f32>>()
+        };
+        let mut last = seen(-0.10);
+        let brightest = last.iter().copied().fold(0.0, f32::max);
+        for step in 1..=1200 {
+            let now = seen(-0.10 - step as f32 * 2e-4);
+            for (a, b) in last.iter().zip(&now) {
+                assert!((a - b).abs() < 0.05 * brightest, "{step}: {a} {b}");
+            }
+            last = now;
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@ pub mod flares;
 pub mod galaxy;
 pub mod ground;
 pub mod light;
+pub mod moment;
 #[cfg(feature = "perez")]
 pub mod perez;
 pub mod picture;

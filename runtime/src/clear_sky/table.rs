@@ -62,8 +62,8 @@ uniforms! {
         aureole_u: f32,
         /// How much brighter a storm is at the horizon, where light comes in from beyond it.
         slit: f32,
-        /// Nothing.
-        _pad: Vec2,
+        /// Unit vector (east, south) of the azimuth that the picture has at its side.
+        azimuth: Vec2,
     }
 }
 
@@ -306,6 +306,36 @@ impl SkyView {
         }
     }
 
+    /// Adds another sky of the same side.
+    pub fn add(&mut self, other: &SkyView) {
+        for (light, more) in self.radiance.iter_mut().zip(&other.radiance) {
+            *light += *more;
+        }
+    }
+
+    /// Evens it out around the horizon, row by row, by a share of 0..1: at 1 it has no side.
+    pub fn level(&mut self, share: f32) {
+        let width = self.size[0] as usize;
+        // Columns of solid angle: the first and the last reach one way only.
+        let azimuth = |x: f32| {
+            let x = x.clamp(0.0, (width - 1) as f32);
+            texel_to_sky([x, 0.0], self.size).1.clamp(-1.0, 1.0).acos()
+        };
+        let weights: Vec<f32> = (0..width)
+            .map(|x| {
+                (azimuth(x as f32 + 0.5) - azimuth(x as f32 - 0.5)).abs() / std::f32::consts::PI
+            })
+            .collect();
+        for part in [&mut self.radiance, &mut self.aureole] {
+            for row in part.chunks_exact_mut(width) {
+                let mean: Vec3 = row.iter().zip(&weights).map(|(light, w)| *light * *w).sum();
+                for light in row {
+                    *light = light.lerp(mean, share);
+                }
+            }
+        }
+    }
+
     /// The picture that the shader reads.
     pub fn image(&self) -> Image {
         picture::image(self.size, &self.radiance, &self.aureole)
@@ -319,11 +349,12 @@ impl SkyView {
 
 /// The clear sky's share of the uniforms.
 ///
-/// `direction` is that of the luminary, `night` the share of the night sky that is drawn, `overcast` the radiance of an overcast sky,
+/// `direction` is that of the luminary, `azimuth` that of the view, `night` the share of the night sky that is drawn, `overcast` the radiance of an overcast sky,
 /// `overcast_weight` how overcast it is, `slit` how much brighter that is at the horizon.
 pub fn uniforms(
     view: &SkyView,
     direction: Vec3,
+    azimuth: Vec2,
     night: f32,
     overcast: Vec3,
     overcast_weight: f32,
@@ -340,7 +371,7 @@ pub fn uniforms(
         start: start.into(),
         span: span.into(),
         aureole_u: places.aureole_u(),
-        ..Default::default()
+        azimuth,
     }
 }
 

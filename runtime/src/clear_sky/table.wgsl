@@ -8,7 +8,7 @@ fn aureole_lobe(lobe: vec2f, cosine: f32) -> f32 {
 
 // The clear sky along a unit direction; from below the horizon, that of the horizon.
 fn table_light(direction: vec3f) -> vec3f {
-    var place = vec2f(dot(direction.xz, uniforms.clouds.sun_azimuth), 0.0);
+    var place = vec2f(dot(direction.xz, uniforms.sky.azimuth), 0.0);
     if direction.y > 0.0 {
         place.y = sqrt(direction.y) * (1.0 + SKY_BEND * direction.y);
     } else {

@@ -1,14 +1,18 @@
 //! The clear sky of the moment on a device.
 
 use crate::clear_sky::light::LitSky;
+use crate::clear_sky::moment::Moment;
 use crate::clear_sky::table::halves;
 
 /// The texture that the shader reads the clear sky from, and the light that goes with what is in it.
 #[derive(Debug)]
 pub(crate) struct ViewTexture {
     pub texture: wgpu::Texture,
-    written: Option<([f32; 3], LitSky)>,
+    written: Option<(Lighting, LitSky)>,
 }
+
+/// All that the light of a moment depends on: where sun and moon stand; haze and the moon's strength.
+pub(crate) type Lighting = (Moment, [f32; 2]);
 
 impl ViewTexture {
     /// An empty texture of half floats.
@@ -33,11 +37,11 @@ impl ViewTexture {
         }
     }
 
-    /// The light of a moment, made and its sky written unless they are there. `moment` is all that they depend on: time, haze and moon.
+    /// The light of a moment, made and its sky written unless they are there.
     pub fn lit(
         &mut self,
         queue: &wgpu::Queue,
-        moment: [f32; 3],
+        moment: Lighting,
         make: impl FnOnce() -> LitSky,
     ) -> &LitSky {
         let last = self.written.take().filter(|(last, _)| *last == moment);

@@ -162,7 +162,7 @@ pub fn uniforms(params: &SkyParams, light: &Light, texels: u32) -> CloudUniforms
     let overcast_weight = overcast_weight(params.cover);
     let half_texel = 0.5 / texels as f32;
     CloudUniforms {
-        sun_azimuth: sun_azimuth(light.sun_direction),
+        sun_azimuth: azimuth(light.sun_direction),
         // Half a texel is kept from the ends: the texture repeats, and its ends are far apart.
         gradient_start: half_texel,
         gradient_span: 1.0 - 2.0 * half_texel,
@@ -282,7 +282,7 @@ pub(crate) fn offset(place: DVec2) -> Vec2 {
 }
 
 /// Unit vector (east, south) to the sun's azimuth; any one where the sun is at the zenith.
-fn sun_azimuth(sun: Vec3) -> Vec2 {
+pub fn azimuth(sun: Vec3) -> Vec2 {
     Vec2::new(sun.x, sun.z).normalize_or(Vec2::Y)
 }
 

@@ -69,6 +69,8 @@ impl SkyParams {
 
 #[cfg(test)]
 mod tests {
+    use crate::almanac::Place;
+
     use super::super::perez::PerezShape;
     use super::super::sky::MAX_EXPOSURE;
     use super::*;
@@ -81,6 +83,10 @@ mod tests {
             density: f32::NAN,
             time: f32::NEG_INFINITY,
             exposure: 1e30,
+            place: Place {
+                latitude_deg: 91.0,
+                longitude_deg: f32::NAN,
+            },
             ..Default::default()
         };
         let tame = wild.clamped();
@@ -89,6 +95,8 @@ mod tests {
             (0.0, 1.0, 0.0, MAX_EXPOSURE)
         );
         assert_eq!(tame.density, SkyParams::default().density);
+        let place = tame.place;
+        assert_eq!((place.latitude_deg, place.longitude_deg), (90.0, 0.0));
     }
 
     #[test]
@@ -157,6 +165,8 @@ mod tests {
 
         let mut params = SkyParams::figure_4();
         params.perez.shape = PerezShape::Cie(12);
+        params.date = Some("2026-06-21T18:30:00.250Z".parse().unwrap());
+        params.place.latitude_deg = -33.9;
         params.lit.layers = layers("cumulus:0.5:1:-12.5:0,cirrus:0.25").unwrap();
         for one in [params, SkyParams::default()] {
             let text = serde_json::to_string(&one).unwrap();

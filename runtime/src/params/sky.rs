@@ -1,5 +1,7 @@
 //! What the sky shall look like.
 
+use crate::almanac::{Date, Place};
+
 use super::fbm::FbmParams;
 use super::lit::LitParams;
 use super::method::{Method, Shading, SkyModel};
@@ -32,6 +34,11 @@ pub struct SkyParams {
     pub speed: f32,
     /// Time of day: 0 midnight, 0.25 sunrise, 0.5 noon, 0.75 sunset, 1 midnight again.
     pub time: f32,
+    /// The moment of universal time at second 0, if the sky is that of a date and place: sun and moon then stand where they are, and
+    /// [`SkyParams::time`] is not looked at. It goes on with the seconds of [`crate::Sky::prepare`].
+    pub date: Option<Date>,
+    /// The place for [`SkyParams::date`].
+    pub place: Place,
     /// Amount of the thin upper layer of [`Method::Packed`], 0 (off) to 1.
     pub upper_layer: f32,
     /// Factor on the radiance before the tone curve, 0..=64: what an application's camera has adapted to. A float target gets radiance
@@ -71,7 +78,7 @@ pub struct SkyParams {
     pub shadow_extent_m: f32,
     /// How hazy the air is: 0 as the pack's clear air, 1 as its hazy air.
     pub haze: f32,
-    /// Strength of the full moon's light, 0..=1; it stands opposite the sun.
+    /// Strength of the moon's light, 0..=1. It is full and stands opposite the sun, but with [`SkyParams::date`].
     pub moon: f32,
     /// Share of red, green and blue light that the ground reflects, linear BT.709, 0..=1 each.
     pub ground: [f32; 3],
@@ -109,6 +116,8 @@ impl Default for SkyParams {
             sunset: 0.0,
             speed: 0.1,
             time: 0.5,
+            date: None,
+            place: Place::default(),
             upper_layer: 0.0,
             exposure: 2.6,
             exposure_ev: 0.0,

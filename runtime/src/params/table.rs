@@ -81,7 +81,7 @@ pub const SETTINGS: &[Setting] = settings! {
         "speed" "Speed" "Speed of the clouds"
             = plain!(speed, UNIT).value("S").range_said().blends();
         "time" "Time" "Time of day: 0 midnight, 0.25 sunrise, 0.5 noon, 0.75 sunset"
-            = plain!(time, UNIT).value("T").range_said().blends();
+            = plain!(time, UNIT).value("T").range_said().blends().when(text::has_no_date);
     }
     Clouds {
         "method" "Method" "How the clouds are made"
@@ -166,7 +166,7 @@ pub const SETTINGS: &[Setting] = settings! {
         "sun" "Sun" "The sun's disc"
             = switch("no-sun", |params: &mut SkyParams| &mut params.sun)
                 .command_help("Leave out the sun's disc, as a map beside a sun lamp wants it");
-        "moon" "Moon" "Strength of the full moon's light"
+        "moon" "Moon" "Strength of the moon's light, 1 as it is"
             = plain!(moon, UNIT).value("S");
         "stars" "Stars" "Stars and galaxy"
             = switch("no-stars", |params: &mut SkyParams| &mut params.stars).command_help("Leave out stars and galaxy");
@@ -183,6 +183,15 @@ pub const SETTINGS: &[Setting] = settings! {
             = plain!(weather.rays, UNIT).value("R").range_said().blends();
         "rain" "Rain" "Strength of the rain, 0 (off) to 1"
             = plain!(weather.rain, UNIT).value("R").range_said().blends();
+    }
+    Time {
+        "date" "Date" "Moment of universal time, which takes the place of the time of day"
+            = text(Input::Text { form: DATE_FORM }, text::date, text::set_date).optional(text::clear_date)
+                .value(DATE_FORM).default_said(DefaultSaid::Nothing).command_help(DATE_HELP);
+        "lat" "Latitude" "Latitude of the place, north positive"
+            = plain!(place.latitude_deg, [-90.0, 90.0]).unit("degrees", " degrees").value("DEG").when(text::has_date);
+        "lon" "Longitude" "Longitude of the place, east positive"
+            = plain!(place.longitude_deg, [-180.0, 180.0]).unit("degrees", " degrees").value("DEG").when(text::has_date);
     }
     Camera {
         "exposure-ev" "Exposure" "Exposure of the picture in stops: each is twice as bright"
@@ -250,6 +259,13 @@ const PEREZ: Input = Input::Numbers {
 const fn choice<const N: usize>([choices, meanings]: &'static [[&'static str; N]; 2]) -> Input {
     Input::Choice { choices, meanings }
 }
+
+/// How a date is written.
+const DATE_FORM: &str = "YYYY-MM-DDTHH:MM:SSZ";
+
+/// A date at the command line.
+const DATE_HELP: &str = "The sky of a moment of universal time, 1900 to 2099, instead of --time, at the place of --lat and --lon; seconds and zone may be \
+    left out, and a zone may be +03:00";
 
 /// Beside the sentence and not on a line of its own, as every default of several numbers.
 const INLINE: DefaultSaid = DefaultSaid::Words("{}");

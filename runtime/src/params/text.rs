@@ -1,5 +1,7 @@
 //! Text of what is no plain number: a pair of functions each, from the parameters and into them.
 
+use crate::almanac::DateError;
+
 use super::fbm::PALETTES;
 use super::layers::{layers as read_layers, layers_text};
 use super::method::{Method, Shading, SkyModel};
@@ -186,6 +188,29 @@ pub fn clear_perez(params: &mut SkyParams) {
     if matches!(params.perez.shape, PerezShape::Custom(_)) {
         params.perez.shape = PerezShape::default();
     }
+}
+
+pub fn date(params: &SkyParams) -> String {
+    params
+        .date
+        .map_or(NONE.to_string(), |date| date.to_string())
+}
+
+pub fn set_date(params: &mut SkyParams, text: &str) -> Result<(), String> {
+    params.date = Some(text.parse().map_err(|e: DateError| e.to_string())?);
+    Ok(())
+}
+
+pub fn clear_date(params: &mut SkyParams) {
+    params.date = None;
+}
+
+pub fn has_date(params: &SkyParams) -> bool {
+    params.date.is_some()
+}
+
+pub fn has_no_date(params: &SkyParams) -> bool {
+    params.date.is_none()
 }
 
 pub fn is_perez(params: &SkyParams) -> bool {

@@ -37,7 +37,7 @@ impl PackData {
         step: f32,
     ) -> Uniforms {
         let clamped = params.clamped();
-        let lit = self.lit_sky(&clamped);
+        let lit = self.lit_sky(&clamped, seconds);
         let clamped = self.exposed(&lit, clamped, seconds);
         self.uniforms_under(&lit, &clamped, camera, seconds, step)
     }
@@ -97,6 +97,7 @@ impl PackData {
         uniforms.sky = table::uniforms(
             &lit.view,
             light.sun_direction,
+            shared::azimuth(light.sky_direction),
             night,
             overcast,
             overcast_weight,

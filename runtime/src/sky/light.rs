@@ -184,7 +184,7 @@ impl PackData {
     /// See [`crate::Sky::light`].
     pub fn light(&self, params: &SkyParams, seconds: f64) -> SkyLight {
         let clamped = params.clamped();
-        self.light_under(&self.lit_sky(&clamped), &clamped, seconds)
+        self.light_under(&self.lit_sky(&clamped, seconds), &clamped, seconds)
     }
 
     /// The same in the light of the moment. `params` are in range.
@@ -193,7 +193,7 @@ impl PackData {
         let uniforms = &self.uniforms_under(lit, params, &camera, seconds, 0.0);
         let (light, sun) = (lit.light, lit.light.sun_direction);
         let clouds = Clouds::new(self, params, uniforms);
-        let azimuth = uniforms.clouds.sun_azimuth;
+        let azimuth = uniforms.sky.azimuth;
         // A direction by its sine of elevation and the cosine of its azimuth from the sun's.
         let towards = |sine: f32, azimuth_cos: f32| {
             let flat = (1.0 - sine * sine).max(0.0).sqrt();
@@ -252,7 +252,7 @@ impl PackData {
         };
         let direct = luminary(light.ground_sunlight * (std::f32::consts::PI * open));
         let dark = Luminary {
-            direction: -sun,
+            direction: if light.is_moon { light.sun } else { light.moon },
             irradiance: Vec3::ZERO,
         };
         let [sun, moon] = match light.is_moon {

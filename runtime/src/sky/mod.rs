@@ -240,8 +240,10 @@ impl Sky {
     ) {
         let clamped = params.clamped();
         let data = &self.pack_data;
-        let moment = [clamped.time, clamped.haze, clamped.moon];
-        let lit = self.view.lit(queue, moment, || data.lit_sky(&clamped));
+        let moment = (data.moment(&clamped, seconds), [clamped.haze, clamped.moon]);
+        let lit = self
+            .view
+            .lit(queue, moment, || data.lit_sky(&clamped, seconds));
         let clamped = data.exposed(lit, clamped, seconds);
         let params = clamped.dome();
         let uniforms = data.uniforms_under(lit, &clamped, camera, seconds, self.step);
@@ -319,7 +321,7 @@ impl Sky {
     /// Parameters with the exposure that is drawn with: what [`SkyParams::auto_exposure`] finds, if it is on.
     pub fn exposed(&self, params: &SkyParams, seconds: f64) -> SkyParams {
         let clamped = params.clamped();
-        let lit = self.pack_data.lit_sky(&clamped);
+        let lit = self.pack_data.lit_sky(&clamped, seconds);
         self.pack_data.exposed(&lit, clamped, seconds)
     }
 

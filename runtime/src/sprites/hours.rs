@@ -12,6 +12,7 @@
 use glam::Vec3;
 use welkin_pack::field::Hour;
 
+use crate::clear_sky::moment;
 use crate::clouds::shared::CloudUniforms;
 
 /// Light on the clouds of a moment.
@@ -92,6 +93,24 @@ pub fn at(hours: &[Hour], time: f32) -> Hour {
     }
 }
 
+/// The table between two times of day, by their weights.
+pub fn between(hours: &[Hour], [first, second]: &[moment::Hour; 2]) -> Hour {
+    let (from, to) = (at(hours, first.time), at(hours, second.time));
+    let share = second.weight;
+    if share == 0.0 {
+        return from;
+    }
+    let mix = |from: f32, to: f32| from + (to - from) * share;
+    let colour = Vec3::from(from.colour).lerp(Vec3::from(to.colour), share);
+    Hour {
+        time: from.time,
+        ambient: mix(from.ambient, to.ambient),
+        colour: colour.to_array(),
+        least: mix(from.least, to.least),
+        most: mix(from.most, to.most),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -114,6 +133,18 @@ mod tests {
         }
         assert!((at(&hours, 0.375).ambient - 0.6).abs() < 1e-6);
         assert!((at(&hours, 0.625).colour[1] - 0.7).abs() < 1e-6);
+    }
+
+    #[test]
+    fn between_two_times_it_is_what_their_weights_say() {
+        let hours = [hour(0.25, 0.2), hour(0.5, 1.0), hour(0.75, 0.4)];
+        let of = |weight: f32| {
+            let at = |time, weight| moment::Hour { time, weight };
+            between(&hours, &[at(0.25, 1.0 - weight), at(0.75, weight)])
+        };
+        assert_eq!(of(0.0), at(&hours, 0.25));
+        assert!((of(0.5).ambient - 0.3).abs() < 1e-6);
+        assert!((of(1.0).colour[2] - 0.4).abs() < 1e-6);
     }
 
     #[test]

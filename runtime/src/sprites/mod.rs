@@ -142,8 +142,8 @@ pub fn uniforms(
     // The table of hours is the article's, and made for its shading.
     let is_scattered = params.shading == Shading::Scattered && !own.hours;
     let lit = if own.hours {
-        let factor = moonlit(light, params.moon) * shared::underside_light(params);
-        hours::of_hour(&hours::at(hours, params.time), factor)
+        let factor = moonlit(light) * shared::underside_light(params);
+        hours::of_hour(&hours::between(hours, &light.hours), factor)
     } else if is_scattered {
         hours::of_scattered(clouds)
     } else {
@@ -180,12 +180,9 @@ pub fn uniforms(
 }
 
 /// Share of an hour's direct light as moon and sun change places.
-fn moonlit(light: &Light, moon: f32) -> f32 {
-    let (sun_sin, strength) = match light.is_moon {
-        true => (-light.sun_direction.y, moon),
-        false => (light.sun_direction.y, 1.0),
-    };
-    strength * smoothstep(0.0, MOON[1], (sun_sin - MOON[0]).abs())
+fn moonlit(light: &Light) -> f32 {
+    let strength = if light.is_moon { light.moonlight } else { 1.0 };
+    strength * smoothstep(0.0, MOON[1], (light.sun.y - MOON[0]).abs())
 }
 
 /// The lowest base and the highest top of a field's clouds, in metres; 0 if it has none.
@@ -275,6 +272,8 @@ mod tests {
             let is_moon = sine <= MOON[0];
             let light = Light {
                 sun_direction: if is_moon { -sun } else { sun },
+                sun,
+                moonlight: 1.0,
                 is_moon,
                 ..Light::default()
             };

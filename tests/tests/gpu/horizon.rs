@@ -22,7 +22,7 @@ const WEIGHT: f32 = 1.0 / 256.0;
 
 /// The most that the two lowest rows of the clear sky's picture are apart, over themselves.
 fn rows_apart(data: &PackData, params: &SkyParams) -> f32 {
-    let image = data.lit_sky(params).view.image();
+    let image = data.lit_sky(params, 0.0).view.image();
     let colour = |x: u32, y: u32| Vec3::from_slice(&image.texel(x, y)[..3]);
     let apart = (0..image.width).map(|x| {
         let [low, high] = [0, 1].map(|y| colour(x, y));

@@ -211,7 +211,7 @@ fn the_hemisphere_is_as_bright_as_the_table() {
                 time,
                 ..SkyParams::default()
             };
-            let light = facts.lit_sky(&params).light;
+            let light = facts.lit_sky(&params, 0.0).light;
             let ratio = sum / count / luminance(light.skylight);
             // The mean of the frame is taken over 32 rings: see the next test.
             assert!(

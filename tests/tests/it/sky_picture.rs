@@ -25,14 +25,14 @@ fn it_is_the_tables_sky_to_a_byte() {
             cover: 0.0,
             ..SkyParams::default()
         };
-        let lit = data.lit_sky(&params);
+        let lit = data.lit_sky(&params, 0.0);
         if lit.light.is_moon {
             continue;
         }
         let camera = Camera::looking(PI, 0.3, 1.0, [64, 64]);
         let uniforms = data.uniforms(&params, &camera, 0.0, 0.0);
         let texture = sky::texture(&data, &params);
-        let azimuth = uniforms.clouds.sun_azimuth;
+        let azimuth = uniforms.sky.azimuth;
         let mut below = Vec3::ZERO;
         for at in data.sky.samples(&lit.view) {
             if at.azimuth_cos == 1.0 {

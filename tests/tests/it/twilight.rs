@@ -47,7 +47,7 @@ fn moment(facts: &PackData, shape: PerezShape, elevation_deg: f32, directions: &
         _ => linear(colour(&frame.perez, *d)).max_element(),
     };
     Moment {
-        level: luminance(facts.lit_sky(&params).light.skylight),
+        level: luminance(facts.lit_sky(&params, 0.0).light.skylight),
         seen: look(&frame),
         gradient: look(&alone),
         perez: directions.iter().map(perez).collect(),

@@ -178,10 +178,11 @@ fn arg(option: &'static str, keys: &[&'static Key]) -> Arg {
         }
         _ => arg.value_parser(parser(keys)).allow_hyphen_values(true),
     };
-    let arg = if key.name == "cie" {
-        arg.conflicts_with("perez")
-    } else {
-        arg
+    let arg = match key.name {
+        "cie" => arg.conflicts_with("perez"),
+        "date" => arg.conflicts_with("time"),
+        "lat" | "lon" => arg.requires("date"),
+        _ => arg,
     };
     match (keys, key.command.default) {
         ([key], DefaultSaid::Text) => arg.default_value(key.text(&Settings::default())),

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use welkin_pack::LayerKind;
+use welkin_runtime::almanac::Place;
 use welkin_runtime::params::{
     FbmParams, LitLayer, LitParams, OctaveParams, PerezParams, PerezShape, Shading, SkyModel,
     Tonemap,
@@ -103,7 +104,18 @@ fn packed_skies() -> Vec<Case> {
         cover: 0.0,
         ..day
     };
+    // A half moon in the south-west, over the dusk in the west.
+    let dated = SkyParams {
+        date: "2026-01-26T18:15:00Z".parse().ok(),
+        place: Place {
+            latitude_deg: 40.0,
+            longitude_deg: 0.0,
+        },
+        cover: 0.4,
+        ..day
+    };
     vec![
+        case("dated", dated, 230.0, 30.0, 0.0),
         case("figure_2", SkyParams::figure_2(), 120.0, 22.0, 40.0),
         case("figure_4", SkyParams::figure_4(), 255.0, 18.0, 0.0),
         case("dense", dense, 330.0, 60.0, 7.0),

@@ -448,6 +448,7 @@ fn another_text(key: &Key) -> String {
         Input::Numbers { optional: true, .. } => "-0.5,-0.5,9,-2.5,0.5".to_string(),
         Input::Numbers { .. } | Input::Colour => "0.25,0.5,0.75".to_string(),
         Input::Layers => "cumulus:0.5:0.8:-20:5,cirrus:0.25:4".to_string(),
+        Input::Text { .. } if key.name == "date" => "2026-06-21T18:30:00Z".to_string(),
         Input::Text { .. } => "-4,2.5,10,0.5".to_string(),
     }
 }

@@ -1,4 +1,5 @@
 mod clear_sky;
+mod date;
 mod lit;
 mod weather;
 
