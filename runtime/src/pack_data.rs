@@ -1,9 +1,9 @@
 //! What the CPU keeps of a pack between frames.
 
-#[cfg(feature = "lit")]
 use glam::Vec2;
 #[cfg(feature = "sprites")]
 use welkin_pack::field::Hour;
+use welkin_pack::mapping::{direction_from_angles, direction_to_galaxy_uv};
 use welkin_pack::{Pack, Role, StarTexel, Texture};
 
 use crate::clear_sky::light::LitSky;
@@ -46,6 +46,8 @@ pub struct PackData {
     pub stars: u32,
     /// What a step of each of their levels stands for: [`StarTexel::level_units`].
     pub star_units: Vec<f32>,
+    /// The line along which the galaxy's band crosses the rim of its dome: east and south, a unit vector.
+    pub galaxy_node: Vec2,
     /// Texels a side and levels of the sun.
     pub sun: (u32, usize),
     /// Texels a side of the atlas of flares.
@@ -88,6 +90,7 @@ impl PackData {
             cirrus_spreads: lit::map::spreads(texture(pack, Role::Layers)?),
             stars: texture(pack, Role::Stars)?.width,
             star_units: StarTexel::level_units(texture(pack, Role::Stars)?),
+            galaxy_node: galaxy_node(texture(pack, Role::Galaxy)?),
             sun: side(texture(pack, Role::Sun)?),
             flares: texture(pack, Role::Flares)?.width,
             skybox: pack.texture(Role::Skybox).map(side),
@@ -125,6 +128,25 @@ impl PackData {
         let seconds = finite(seconds);
         octaves::map::states(&self.noise, self.seed, &params.clamped(), seconds)
     }
+}
+
+/// The axis through the light at the rim: the mean of its azimuths, twice each so that opposite ones are one.
+fn galaxy_node(galaxy: &Texture) -> Vec2 {
+    const STEPS: u32 = 360;
+    let image = galaxy.image(0, 0);
+    let sum: Vec2 = (0..STEPS)
+        .map(|step| {
+            let azimuth = std::f32::consts::TAU * step as f32 / STEPS as f32;
+            let uv = direction_to_galaxy_uv(direction_from_angles(azimuth, 0.0));
+            let [x, y] = [(uv[0], image.width), (uv[1], image.height)]
+                .map(|(c, side)| ((c * side as f32) as u32).min(side - 1));
+            let stored = image.texel(x, y)[0];
+            let towards = Vec2::from_angle(azimuth);
+            towards.rotate(towards) * (stored * stored)
+        })
+        .sum();
+    let azimuth = 0.5 * sum.to_angle();
+    Vec2::new(libm::sinf(azimuth), -libm::cosf(azimuth))
 }
 
 /// Photo, noise and detail at 512 places each, a golden ratio of the texture apart, each from another start.

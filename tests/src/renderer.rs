@@ -11,6 +11,7 @@ use welkin_runtime::{Camera, Method, SkyParams};
 use crate::clouds::Inputs;
 use crate::photo::Photo;
 use crate::skybox::{self, Skybox};
+use crate::stars::Seen;
 use crate::texture::{Texture, smoothstep};
 use crate::{
     camera, fbm_map, fbm_pack, flares, galaxy, lightning, lit, lit_map, map, methods, octaves_map,
@@ -373,10 +374,11 @@ impl Frame<'_> {
         let direction = camera::ray_of(&uniforms.camera, pixel).normalize();
         let mut radiance = sky::radiance(uniforms, &self.sky, &twin.clouds, direction);
         if uniforms.sky.night > 0.0 && direction.y > 0.0 {
+            let own = stars::place(uniforms, direction);
             let galaxy =
-                galaxy::brightness(&uniforms.galaxy, &twin.galaxy, &twin.clouds, direction);
-            let stars =
-                stars::radiance(uniforms, twin.pack, direction, pixel, self.seconds, galaxy);
+                galaxy::brightness(&uniforms.galaxy, &twin.galaxy, &twin.clouds, own.direction);
+            let seen = Seen { direction, pixel };
+            let stars = stars::radiance(uniforms, twin.pack, seen, own, self.seconds, galaxy);
             radiance += (uniforms.galaxy.radiance * galaxy + stars)
                 * smoothstep(0.0, EXTINCTION, direction.y);
         }

@@ -18,6 +18,20 @@ pub fn refraction_deg(elevation_deg: f64) -> f64 {
     share * (minutes(elevation_deg.max(low)) - minutes(90.0)).max(0.0) / 60.0
 }
 
+/// The same as a shader has it, for the sines of elevations above the horizon: what is added to a unit vector's height before it is made one again,
+/// `LIFT[0] / (y + LIFT[1] / (1 + LIFT[2] y))`. Fitted to [`refraction_deg`] by least fourth powers, within 0.0001 degrees above the horizon.
+pub const LIFT: [f32; 3] = [2.966_491e-4, 0.035_183_51, 11.196_601];
+
+/// The least sine at which [`lift`] is told: below, there is nothing to be seen.
+pub const LEAST_SINE: f32 = -0.012;
+
+/// See [`LIFT`].
+pub fn lift(sine: f32) -> f32 {
+    let [light, low, bend] = LIFT;
+    let sine = sine.max(LEAST_SINE);
+    light / (sine + low / (1.0 + bend * sine.max(0.0)))
+}
+
 /// A direction of the world as it is seen through the air.
 pub fn lifted(direction: DVec3) -> DVec3 {
     let flat = direction.x.hypot(direction.z);
@@ -55,6 +69,18 @@ mod tests {
         for step in -9000..9000 {
             let rise = seen(step + 1) - seen(step);
             assert!((0.005..0.015).contains(&rise), "{step}: {rise}");
+        }
+    }
+
+    #[test]
+    fn the_shader_s_lift_is_the_same() {
+        for step in 0..=900 {
+            let elevation = (f64::from(step) * 0.1).to_radians();
+            let (sine, cosine) = elevation.sin_cos();
+            let seen = (sine + f64::from(lift(sine as f32))).atan2(cosine);
+            let found_deg = (seen - elevation).to_degrees();
+            let off = (found_deg - refraction_deg(elevation.to_degrees())).abs();
+            assert!(off < 2e-4, "{step}: {off}");
         }
     }
 

@@ -20,14 +20,20 @@
 //! Away from the lens' axis, at an angle t to it, a pixel covers cos^3 t of the solid angle that one in the middle does. On a screen
 //! that is nobody's concern; a map of radiance divides by it ([`crate::SkyParams::even_stars`]).
 //!
+//! With a date the texture's dome does not stand over the viewer but over the north pole of J2000, its north at right ascension 0, and turns with
+//! the stars ([`crate::almanac::stars`]), lifted by the air. It is one hemisphere: the other is the same turned half about the line along which the galaxy crosses the
+//! equator, so that the band goes on where it is. Where the two meet, a star whose tent reaches across loses what is beyond.
+//!
 //! # Practice
 //! One texture read a pixel at night, the rest only where there is a star (about one pixel in 40). Where a texel is too
 //! narrow, about a dozen.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use welkin_pack::StarTexel;
 use welkin_pack::mapping::{STAR_TILE_SIDE, STAR_TILE_START};
 
+use crate::almanac::refraction::{LEAST_SINE, LIFT};
+use crate::almanac::{Date, Place, stars};
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
 
@@ -40,6 +46,8 @@ pub const PART: Part = Part {
         ("STAR_START", Value::Vec2(STAR_TILE_START)),
         ("STAR_WARM", Value::Vec3(WARM)),
         ("STAR_COLD", Value::Vec3(COLD)),
+        ("STAR_LIFT", Value::Vec3(Vec3::from_array(LIFT))),
+        ("STAR_LEAST_SINE", Value::F32(LEAST_SINE)),
     ],
     structs: &[StarUniforms::WGSL],
     wgsl: include_str!("stars.wgsl"),
@@ -62,8 +70,42 @@ uniforms! {
         is_guided: f32,
         /// How far a tent reaches, in radians.
         reach_rad: f32,
+        /// 1 if the dome of the texture stands as a date has it, 0 if over the viewer.
+        is_placed: f32,
+        /// The world's direction of its east.
+        east: Vec3,
+        /// East and, further below, south of the line about which its other half is turned.
+        node_east: f32,
+        /// The world's direction of its zenith.
+        zenith: Vec3,
+        /// See `node_east`.
+        node_south: f32,
+        /// The world's direction of its south.
+        south: Vec3,
         /// Nothing.
         _pad: f32,
+    }
+}
+
+/// How the dome of the texture stands over the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stand {
+    /// Its east, zenith and south, in the world; airless.
+    pub axes: [Vec3; 3],
+    /// The line about which its other half is turned: east and south, a unit vector.
+    pub node: Vec2,
+}
+
+impl Stand {
+    /// At a date and place. `node` is that of the galaxy, on its own dome.
+    pub fn of_date(date: Date, place: Place, node: Vec2) -> Stand {
+        let turn = stars::turn(date, place);
+        // Its zenith is the pole, its north right ascension 0.
+        let axes = [-turn.y_axis, turn.z_axis, -turn.x_axis];
+        Stand {
+            axes: axes.map(|axis| axis.as_vec3()),
+            node,
+        }
     }
 }
 
@@ -97,7 +139,7 @@ struct Levels {
 
 /// The stars' share of the uniforms. `texels` is the side of level 0, `units` are those of
 /// [`StarTexel::level_units`], `pixel_rad` width and height of a pixel in the middle of the screen, `even` is
-/// [`crate::SkyParams::even_stars`].
+/// [`crate::SkyParams::even_stars`]; without a `stand` the dome of the texture stands over the viewer.
 pub fn uniforms(
     texels: u32,
     units: &[f32],
@@ -105,6 +147,7 @@ pub fn uniforms(
     night: f32,
     even: bool,
     seconds: f64,
+    stand: Option<Stand>,
 ) -> StarUniforms {
     let Levels { records, guided } = levels(texels, units.len(), pixel_rad);
     let texel_sr = (STAR_TILE_SIDE / texels as f32) * (STAR_TILE_SIDE / texels as f32);
@@ -112,7 +155,18 @@ pub fn uniforms(
     let unit = units.get(records as usize).copied().unwrap_or(1.0);
     let brightness = BRIGHTNESS * night * unit * texel_sr / pixel_sr;
     let number = |is: bool| f32::from(u8::from(is));
+    let over_viewer = Stand {
+        axes: [Vec3::X, Vec3::Y, Vec3::Z],
+        node: Vec2::X,
+    };
+    let Stand { axes, node } = stand.unwrap_or(over_viewer);
     StarUniforms {
+        is_placed: number(stand.is_some()),
+        east: axes[0],
+        zenith: axes[1],
+        south: axes[2],
+        node_east: node.x,
+        node_south: node.y,
         level: records as f32,
         resolution: (texels >> records).max(1) as f32,
         period: period(seconds),
@@ -174,6 +228,25 @@ mod tests {
     }
 
     #[test]
+    fn the_dome_stands_where_the_pole_is_and_is_not_mirrored() {
+        for (latitude_deg, date) in [(51.5, "2026-01-01"), (-33.9, "1969-07-20T20:17:40Z")] {
+            let place = Place {
+                latitude_deg,
+                longitude_deg: 12.0,
+            };
+            let [east, zenith, south] = Stand::of_date(date.parse().unwrap(), place, Vec2::X).axes;
+            // The pole of J2000 has gone by 0.15 degrees at most since.
+            let pole = Vec3::new(
+                0.0,
+                latitude_deg.to_radians().sin(),
+                -latitude_deg.to_radians().cos(),
+            );
+            assert!(zenith.angle_between(pole).to_degrees() < 0.2);
+            assert!(east.cross(zenith).distance(south) < 1e-6);
+        }
+    }
+
+    #[test]
     fn the_same_sky_returns_after_each_period() {
         assert_eq!(period(0.0), period(640.0));
         assert_eq!(period(1e6), period(1e6 + 64.0 * 1e6));
@@ -184,7 +257,7 @@ mod tests {
     fn light_does_not_depend_on_the_level() {
         // A step of level 1 stands for three of level 0.
         let units = [1.0, 3.0, 3.0];
-        let at = |pixel_rad: f32| uniforms(256, &units, [pixel_rad; 2], 1.0, false, 0.0);
+        let at = |pixel_rad: f32| uniforms(256, &units, [pixel_rad; 2], 1.0, false, 0.0, None);
         let (fine, coarse) = (at(1e-3), at(8e-3));
         assert_eq!((fine.level, coarse.level), (0.0, 1.0));
         let per_step =

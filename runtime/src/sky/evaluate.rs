@@ -5,6 +5,7 @@ use glam::Vec3;
 use crate::clear_sky::light::LitSky;
 #[cfg(feature = "perez")]
 use crate::clear_sky::perez;
+use crate::clear_sky::stars::Stand;
 use crate::clear_sky::{flares, galaxy, ground, skybox, stars, sun, table};
 #[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
 use crate::clouds::photo;
@@ -135,6 +136,9 @@ impl PackData {
             night * light.dark,
             params.even_stars,
             view.seconds,
+            params.date.map(|date| {
+                Stand::of_date(date.after(view.seconds), params.place, self.galaxy_node)
+            }),
         );
         let [_, noise, detail] = self.cloud_means;
         uniforms.galaxy = galaxy::uniforms(

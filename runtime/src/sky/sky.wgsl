@@ -3,9 +3,14 @@
 fn behind_clouds(direction: vec3f, pixel: vec2f, clear: f32) -> vec3f {
     var radiance = sky_radiance(direction);
     if NIGHT && direction.y > 0.0 {
-        let dome = direction_to_dome(direction);
+        var own = star_direction(direction);
+        let is_turned = own.y < 0.0;
+        if is_turned {
+            own = star_turned(own);
+        }
+        let dome = direction_to_dome(own);
         let galaxy = galaxy_brightness(dome);
-        let night = galaxy * uniforms.galaxy.radiance + star_radiance(dome, direction, pixel, galaxy);
+        let night = galaxy * uniforms.galaxy.radiance + star_radiance(dome, own.y, direction, pixel, galaxy, is_turned);
         radiance += night * smoothstep(0.0, EXTINCTION, direction.y);
     }
     radiance = sun_added(radiance, direction, clear * clear);

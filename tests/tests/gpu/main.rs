@@ -18,6 +18,7 @@ mod motion;
 mod oktas;
 mod parallax;
 mod pictures;
+mod placed_stars;
 mod purity;
 mod robust;
 mod shadows;

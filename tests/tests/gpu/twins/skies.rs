@@ -114,7 +114,19 @@ fn packed_skies() -> Vec<Case> {
         cover: 0.4,
         ..day
     };
+    // The southern sky, both halves of its dome, without a moon.
+    let southern = SkyParams {
+        date: "2026-06-14T12:00:00Z".parse().ok(),
+        place: Place {
+            latitude_deg: -33.9,
+            longitude_deg: 151.2,
+        },
+        cover: 0.0,
+        ..day
+    };
     vec![
+        case("southern_horizon", southern, 180.0, 20.0, 0.0),
+        case("southern_equator", southern, 0.0, 45.0, 0.0),
         case("dated", dated, 230.0, 30.0, 0.0),
         case("figure_2", SkyParams::figure_2(), 120.0, 22.0, 40.0),
         case("figure_4", SkyParams::figure_4(), 255.0, 18.0, 0.0),
