@@ -3,8 +3,10 @@
 use crate::clear_sky::flares::FlareUniforms;
 use crate::clear_sky::galaxy::GalaxyUniforms;
 use crate::clear_sky::ground::GroundUniforms;
+use crate::clear_sky::moon::MoonUniforms;
 #[cfg(feature = "perez")]
 use crate::clear_sky::perez::PerezUniforms;
+use crate::clear_sky::planets::PlanetUniforms;
 use crate::clear_sky::skybox::SkyboxUniforms;
 use crate::clear_sky::stars::StarUniforms;
 use crate::clear_sky::sun::SunUniforms;
@@ -57,8 +59,12 @@ uniforms! {
         perez: PerezUniforms,
         /// The sun's square.
         sun: SunUniforms,
+        /// The moon's disc.
+        moon: MoonUniforms,
         /// Stars.
         stars: StarUniforms,
+        /// The planets.
+        planets: PlanetUniforms,
         /// Galaxy.
         galaxy: GalaxyUniforms,
         /// The skybox.

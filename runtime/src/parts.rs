@@ -2,7 +2,7 @@
 
 #[cfg(feature = "perez")]
 use crate::clear_sky::perez;
-use crate::clear_sky::{flares, galaxy, ground, light, skybox, stars, sun, table};
+use crate::clear_sky::{flares, galaxy, ground, light, moon, planets, skybox, stars, sun, table};
 use crate::clouds::shared;
 use crate::device::context::Dome;
 use crate::device::map;
@@ -16,7 +16,7 @@ use crate::weather::{self, lightning, rain, rainbow, rays};
 use crate::{frame, tonemap};
 
 /// What every dome needs.
-const COMMON: [Part; 15] = [
+const COMMON: [Part; 17] = [
     frame::PART,
     camera::PART,
     dome::PART,
@@ -24,8 +24,10 @@ const COMMON: [Part; 15] = [
     table::PART,
     ground::PART,
     sun::PART,
+    moon::PART,
     stars::PART,
     galaxy::PART,
+    planets::PART,
     skybox::PART,
     shared::PART,
     map::PART,

@@ -14,8 +14,8 @@ use crate::skybox::{self, Skybox};
 use crate::stars::Seen;
 use crate::texture::{Texture, smoothstep};
 use crate::{
-    camera, fbm_map, fbm_pack, flares, galaxy, lightning, lit, lit_map, map, methods, octaves_map,
-    packed_map, rain, sky, stars, sun,
+    camera, fbm_map, fbm_pack, flares, galaxy, lightning, lit, lit_map, map, methods, moon,
+    octaves_map, packed_map, planets, rain, sky, stars, sun,
 };
 
 /// A texture unit may filter 8-bit texels in 8 bits (Mesa's software does; Vulkan asks for no more), which makes a
@@ -379,8 +379,10 @@ impl Frame<'_> {
                 galaxy::brightness(&uniforms.galaxy, &twin.galaxy, &twin.clouds, own.direction);
             let seen = Seen { direction, pixel };
             let stars = stars::radiance(uniforms, twin.pack, seen, own, self.seconds, galaxy);
-            radiance += (uniforms.galaxy.radiance * galaxy + stars)
-                * smoothstep(0.0, EXTINCTION, direction.y);
+            let planets = planets::radiance(uniforms, direction, pixel);
+            radiance += (uniforms.galaxy.radiance * galaxy + stars + planets)
+                * (smoothstep(0.0, EXTINCTION, direction.y)
+                    * (1.0 - moon::seen(uniforms, direction, 1.0).w));
         }
         if let Some(skybox) = &twin.skybox {
             radiance = skybox::mix(&uniforms.skybox, skybox, radiance, direction);
@@ -392,7 +394,9 @@ impl Frame<'_> {
     fn sun(&self, pixel: Vec2, share: f32) -> Vec3 {
         let (twin, uniforms) = (self.twin, &self.uniforms);
         let direction = camera::ray_of(&uniforms.camera, pixel).normalize();
-        let sun = sun::radiance(uniforms, &twin.sun, direction, share);
+        let moon = moon::seen(uniforms, direction, share);
+        let sun = sun::radiance(uniforms, &twin.sun, direction, share * (1.0 - moon.w));
+        let sun = sun + moon.truncate();
         let Some(skybox) = &twin.skybox else {
             return sun;
         };

@@ -78,6 +78,27 @@ pub struct LitSky {
     pub light: Light,
     /// The sky.
     pub view: SkyView,
+    /// The moon of a date.
+    pub moon: Option<MoonLight>,
+}
+
+/// The moon of a date, to be drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MoonLight {
+    /// Unit direction towards it.
+    pub direction: Vec3,
+    /// Unit direction towards the sun from it.
+    pub sunwards: Vec3,
+    /// Half of its angular size.
+    pub radius_rad: f32,
+    /// The angle between sun and viewer as it sees them.
+    pub phase_rad: f32,
+    /// Its light over that of the full moon.
+    pub light: f32,
+    /// The radiance of a white surface that faces it, if it were full.
+    pub full: Vec3,
+    /// Its radiance by the light of the full earth.
+    pub earthlit: Vec3,
 }
 
 impl LitSky {
@@ -148,7 +169,20 @@ impl LitSky {
         let [mean, on_ground] = table.means(&view, luminary_rad);
         light.skylight = mean;
         light.sky_on_ground = on_ground;
-        LitSky { light, view }
+        let disc = moment.disc.map(|disc| MoonLight {
+            direction: moment.moon,
+            sunwards: disc.sunwards,
+            radius_rad: disc.radius_rad,
+            phase_rad: disc.phase_rad,
+            light: moment.moonlight,
+            full: full_moonlight(moment, depth, light.unit_cd_m2) * moon,
+            earthlit: night_transmittance(moment, depth) * (EARTHLIGHT * night * moon),
+        });
+        LitSky {
+            light,
+            view,
+            moon: disc,
+        }
     }
 }
 
@@ -164,6 +198,22 @@ fn white_sunlight(unit_cd_m2: f32) -> Vec3 {
 fn sunlight(elevation_rad: f32, aerosol_depth: f32, unit_cd_m2: f32) -> Vec3 {
     let rgb = Colour::daylight().rgb(&sun_transmittance(elevation_rad, aerosol_depth));
     Vec3::from(rgb) * (SUN_ILLUMINANCE_LX / std::f32::consts::PI / unit_cd_m2)
+}
+
+/// The full moon's light on a white surface that faces it, for its disc: by day in the unit of the hour, by night as eyes see it.
+fn full_moonlight(moment: &Moment, aerosol_depth: f32, unit_cd_m2: f32) -> Vec3 {
+    let elevation_rad = moment.moon.y.clamp(-1.0, 1.0).asin();
+    let by_day =
+        sunlight(elevation_rad, aerosol_depth, unit_cd_m2) * (FULL_MOON_LX / SUN_ILLUMINANCE_LX);
+    let up = 1.0 - smoothstep(MOONRISE[1], MOONRISE[0], moment.sun.y);
+    by_day.max(night_transmittance(moment, aerosol_depth) * MOONLIGHT * up)
+}
+
+/// What the air leaves of the moon's light, over that at 60 degrees.
+fn night_transmittance(moment: &Moment, aerosol_depth: f32) -> Vec3 {
+    let elevation_rad = moment.moon.y.clamp(-1.0, 1.0).asin();
+    let unit = unit_luminance_cd_m2(elevation_rad);
+    sunlight(elevation_rad, aerosol_depth, unit) / luminance(white_sunlight(unit))
 }
 
 /// The sun's light at the ground, for the part of its disc that has risen.
@@ -186,6 +236,14 @@ pub(crate) const MOONLIGHT: Vec3 = Vec3::new(0.062, 0.066, 0.074);
 /// Airglow and faint stars overhead in a moonless night: a dark sky has 21.6 magnitudes a square arcsecond, that of a full moon some 18, 27 times as
 /// much (F. E. Roach, J. L. Gordon, "The Light of the Night Sky", 1973); of that the cube root is kept, as of all light ([`unit_luminance_cd_m2`]).
 const AIRGLOW: Vec3 = Vec3::new(0.0024, 0.0026, 0.0028);
+
+/// Radiance of the new moon by the light of the full earth. That gives it `p (R / d)^2 = 0.434 (6371 / 384400)^2 = 1.2e-4` of the sun's light (its geometric albedo by A. Mallama, B. Krobusek,
+/// H. Pavlov, "Comprehensive wide-band magnitudes and albedos for the planets", Icarus 282, 2017), so 0.5 cd/m2 where the full moon has 4,000, which is 2,800 times the darkest sky; as of all light of the
+/// night, the cube root is kept of that, 14 times [`AIRGLOW`].
+const EARTHLIGHT: f32 = 0.036;
+
+/// Illuminance of the full moon outside the air. C. W. Allen, "Astrophysical Quantities", third edition, 1973, section 66.
+const FULL_MOON_LX: f32 = 0.32;
 
 /// What eyes lose of colour by moonlight, which they see half by their rods; how much is chosen.
 const NIGHT_GREY: f32 = 0.45;

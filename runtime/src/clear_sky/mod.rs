@@ -7,9 +7,11 @@ pub mod galaxy;
 pub mod ground;
 pub mod light;
 pub mod moment;
+pub mod moon;
 #[cfg(feature = "perez")]
 pub mod perez;
 pub mod picture;
+pub mod planets;
 pub mod skybox;
 pub mod stars;
 pub mod sun;

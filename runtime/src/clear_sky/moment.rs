@@ -18,6 +18,19 @@ pub struct Moment {
     pub moonlight: f32,
     /// Times of day, 0 to 1, for what knows no other sun than the pack's, and the weight of each.
     pub hours: [Hour; 2],
+    /// What else a date tells of the moon.
+    pub disc: Option<MoonDisc>,
+}
+
+/// How the moon of a date looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MoonDisc {
+    /// Unit direction towards the sun from the moon.
+    pub sunwards: Vec3,
+    /// Half of its angular size, in radians.
+    pub radius_rad: f32,
+    /// The angle between sun and viewer as it sees them, in radians.
+    pub phase_rad: f32,
 }
 
 /// A time of day, 0 to 1, and its weight.
@@ -41,6 +54,7 @@ impl Moment {
             moon: -sun,
             moonlight: 1.0,
             hours: [Hour { time, weight: 1.0 }, Hour::default()],
+            disc: None,
         }
     }
 
@@ -56,6 +70,11 @@ impl Moment {
             sun,
             moon: lifted(moon.direction).as_vec3(),
             moonlight: moon.light() as f32,
+            disc: Some(MoonDisc {
+                sunwards: moon.sunwards.as_vec3(),
+                radius_rad: moon.radius_rad() as f32,
+                phase_rad: moon.phase_rad as f32,
+            }),
             hours: [
                 Hour {
                     time: 0.5 - turn,

@@ -178,6 +178,12 @@ pub fn uniforms(
     }
 }
 
+/// Radiance of a star of intensity 1 whose light falls on one pixel.
+pub fn radiance_of_one(texels: u32, pixel_rad: [f32; 2], night: f32) -> f32 {
+    let side_rad = STAR_TILE_SIDE / texels as f32;
+    BRIGHTNESS * night * side_rad * side_rad / (pixel_rad[0] * pixel_rad[1])
+}
+
 fn levels(texels: u32, levels: usize, pixel_rad: [f32; 2]) -> Levels {
     let texel_px = |level: u32| {
         let side = (texels >> level).max(1) as f32;

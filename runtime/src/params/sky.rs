@@ -82,7 +82,7 @@ pub struct SkyParams {
     pub moon: f32,
     /// Share of red, green and blue light that the ground reflects, linear BT.709, 0..=1 each.
     pub ground: [f32; 3],
-    /// Whether the sun's disc is drawn.
+    /// Whether the discs of sun and moon are drawn.
     pub sun: bool,
     /// Whether stars and galaxy are drawn.
     pub stars: bool,

@@ -6,7 +6,7 @@ use crate::clear_sky::light::LitSky;
 #[cfg(feature = "perez")]
 use crate::clear_sky::perez;
 use crate::clear_sky::stars::Stand;
-use crate::clear_sky::{flares, galaxy, ground, skybox, stars, sun, table};
+use crate::clear_sky::{flares, galaxy, ground, moon, planets, skybox, stars, sun, table};
 #[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
 use crate::clouds::photo;
 use crate::clouds::shared::{self, CloudView};
@@ -128,7 +128,14 @@ impl PackData {
         let (texels, levels) = self.sun;
         // A lens's glare is the display's affair.
         let exposure = (step > 0.0).then(|| params.exposure_factor());
-        uniforms.sun = sun::uniforms(&light, &rays, texels, levels, pixel, params.sun, exposure);
+        // The moon of a date is a disc of its own.
+        let is_sun = params.sun && !(light.is_moon && lit.moon.is_some());
+        uniforms.sun = sun::uniforms(&light, &rays, texels, levels, pixel, is_sun, exposure);
+        let disc = lit.moon.as_ref().filter(|_| params.sun);
+        uniforms.moon = moon::uniforms(disc, &rays, pixel);
+        let dated = params
+            .date
+            .map(|date| (date.after(view.seconds), params.place));
         uniforms.stars = stars::uniforms(
             self.stars,
             &self.star_units,
@@ -136,10 +143,10 @@ impl PackData {
             night * light.dark,
             params.even_stars,
             view.seconds,
-            params.date.map(|date| {
-                Stand::of_date(date.after(view.seconds), params.place, self.galaxy_node)
-            }),
+            dated.map(|(date, place)| Stand::of_date(date, place, self.galaxy_node)),
         );
+        let one = stars::radiance_of_one(self.stars, pixel_rad, night * light.dark);
+        uniforms.planets = planets::uniforms(dated, &uniforms.camera, one);
         let [_, noise, detail] = self.cloud_means;
         uniforms.galaxy = galaxy::uniforms(
             night * light.dark,

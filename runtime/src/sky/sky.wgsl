@@ -2,6 +2,7 @@
 // the sun's own light they leave its cube, since most of what they scatter goes on nearly straight and is theirs.
 fn behind_clouds(direction: vec3f, pixel: vec2f, clear: f32) -> vec3f {
     var radiance = sky_radiance(direction);
+    let moon = moon_seen(direction, clear * clear);
     if NIGHT && direction.y > 0.0 {
         var own = star_direction(direction);
         let is_turned = own.y < 0.0;
@@ -10,10 +11,14 @@ fn behind_clouds(direction: vec3f, pixel: vec2f, clear: f32) -> vec3f {
         }
         let dome = direction_to_dome(own);
         let galaxy = galaxy_brightness(dome);
-        let night = galaxy * uniforms.galaxy.radiance + star_radiance(dome, own.y, direction, pixel, galaxy, is_turned);
-        radiance += night * smoothstep(0.0, EXTINCTION, direction.y);
+        var night = galaxy * uniforms.galaxy.radiance + star_radiance(dome, own.y, direction, pixel, galaxy, is_turned);
+        if uniforms.stars.is_placed > 0.5 {
+            night += planet_radiance(pixel) * star_spread(direction);
+        }
+        radiance += night * (smoothstep(0.0, EXTINCTION, direction.y) * (1.0 - moon.a));
     }
-    radiance = sun_added(radiance, direction, clear * clear);
+    radiance = sun_added(radiance, direction, clear * clear * (1.0 - moon.a));
+    radiance += moon.rgb;
     if SKYBOX {
         radiance = skybox_mix(radiance, direction);
     }

@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 use welkin_pack::LayerKind;
-use welkin_runtime::almanac::Place;
+use welkin_runtime::almanac::refraction::lifted;
+use welkin_runtime::almanac::{Place, moon};
 use welkin_runtime::params::{
     FbmParams, LitLayer, LitParams, OctaveParams, PerezParams, PerezShape, Shading, SkyModel,
     Tonemap,
@@ -39,6 +40,24 @@ pub fn camera(azimuth_deg: f32, elevation_deg: f32) -> Camera {
         1.05,
         SIZE,
     )
+}
+
+/// A sky of a date and place, seen through a telescope: the moon fills the middle.
+fn moon_case(name: &str, date: &str, place: Place) -> Case {
+    let date = date.parse().ok();
+    let params = SkyParams {
+        date,
+        place,
+        cover: 0.2,
+        ..SkyParams::default()
+    };
+    let moon = date.map_or(Vec3::Y, |date| {
+        lifted(moon::seen(date, place).direction).as_vec3()
+    });
+    let azimuth_rad = moon.x.atan2(-moon.z);
+    let mut case = case(name, params, 0.0, 0.0, 0.0);
+    case.camera = Camera::looking(azimuth_rad, moon.y.asin(), 0.016, SIZE);
+    case
 }
 
 /// Skies that every method draws.
@@ -104,14 +123,26 @@ fn packed_skies() -> Vec<Case> {
         cover: 0.0,
         ..day
     };
+    let north = Place {
+        latitude_deg: 40.0,
+        longitude_deg: 0.0,
+    };
+    let dallas = Place {
+        latitude_deg: 32.8,
+        longitude_deg: -96.8,
+    };
     // A half moon in the south-west, over the dusk in the west.
     let dated = SkyParams {
         date: "2026-01-26T18:15:00Z".parse().ok(),
-        place: Place {
-            latitude_deg: 40.0,
-            longitude_deg: 0.0,
-        },
+        place: north,
         cover: 0.4,
+        ..day
+    };
+    // Jupiter, high in the south at midnight.
+    let opposition = SkyParams {
+        date: "2026-01-10T00:00:00Z".parse().ok(),
+        place: north,
+        cover: 0.1,
         ..day
     };
     // The southern sky, both halves of its dome, without a moon.
@@ -125,6 +156,11 @@ fn packed_skies() -> Vec<Case> {
         ..day
     };
     vec![
+        moon_case("half_moon", "2026-01-26T18:15:00Z", north),
+        moon_case("crescent", "2026-01-20T16:20:00Z", north),
+        moon_case("day_moon", "2026-01-26T15:00:00Z", north),
+        moon_case("eclipse", "2024-04-08T18:10:00Z", dallas),
+        case("jupiter", opposition, 180.0, 70.0, 0.0),
         case("southern_horizon", southern, 180.0, 20.0, 0.0),
         case("southern_equator", southern, 0.0, 45.0, 0.0),
         case("dated", dated, 230.0, 30.0, 0.0),
