@@ -33,7 +33,7 @@ STORM := --time 0.42 --cover 0.95 --density 0.8 --azimuth 40 --elevation 15
 export NODEVICE_SELECT := 1
 
 # Everything that reads a file of somebody else's: targets in fuzz/fuzz_targets/.
-FUZZ := pack ktx manifest field recipe picture model
+FUZZ := pack ktx manifest field recipe picture model catalogue
 SECONDS := 60
 FUZZ_FLAGS := -max_len=131072 -rss_limit_mb=2048 -timeout=20
 

@@ -18,6 +18,7 @@
 //! ```
 
 mod bake;
+pub mod catalogue;
 mod clouds;
 mod error;
 mod fbm;

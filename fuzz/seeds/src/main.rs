@@ -47,6 +47,26 @@ file = "sky.png"
 size = 16
 "#;
 
+/// A star each, of every layout.
+const CATALOGUES: [(&str, &str); 4] = [
+    (
+        "star.json",
+        r#"{"type":"FeatureCollection","features":[{"id":88,"properties":{"mag":5.71,"bv":"0.911"},"geometry":{"type":"Point","coordinates":[0.2691,-48.8099]}}]}"#,
+    ),
+    (
+        "hyg.csv",
+        "id,proper,ra,dec,mag,ci\n91262,\"Vega\",18.61564,38.78369,0.03,-0.001\n",
+    ),
+    (
+        "own.csv",
+        "ra_deg;dec_deg;mag;bv\n279.2346;38.78369;0.03;-0.001\n",
+    ),
+    (
+        "bsc.dat",
+        "7001                                                                       183656.3+384701             0.03  -0.00\n",
+    ),
+];
+
 fn main() -> anyhow::Result<()> {
     let corpus = std::env::args_os().nth(1);
     let corpus = PathBuf::from(corpus.context("say where: welkin-fuzz-seeds CORPUS")?);
@@ -56,6 +76,9 @@ fn main() -> anyhow::Result<()> {
         fs::create_dir_all(&folder)?;
         fs::write(folder.join(name), bytes).with_context(|| format!("{target}/{name}"))
     };
+    for (name, text) in CATALOGUES {
+        save("catalogue", name, text.as_bytes())?;
+    }
     for path in files(&assets.join("recipes"))? {
         save("recipe", &name(&path), &fs::read(&path)?)?;
     }
