@@ -24,10 +24,10 @@ SEEDS := 10000
 
 # The skies that every method draws: at sunset towards the sun and away from it.
 METHODS := packed octaves fbm lit sprites
-NOON := --time 0.45 --azimuth 100 --elevation 17
-SUNSET := --time 0.752 --cover 0.55 --height 0.6 --azimuth 270 --elevation 14
-AWAY := --time 0.752 --cover 0.55 --height 0.6 --azimuth 90 --elevation 14
-STORM := --time 0.42 --cover 0.95 --density 0.8 --azimuth 40 --elevation 15
+NOON := --time 0.45 --azimuth 100 --elevation 21
+SUNSET := --time 0.752 --cover 0.55 --height 0.6 --azimuth 270 --elevation 19
+AWAY := --time 0.752 --cover 0.55 --height 0.6 --azimuth 90 --elevation 19
+STORM := --time 0.42 --cover 0.95 --density 0.8 --azimuth 40 --elevation 20
 
 # Mesa's device selection complains of a desktop session that is not there; without it, nothing is lost.
 export NODEVICE_SELECT := 1

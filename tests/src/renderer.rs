@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 use welkin_pack::{Image, Pack, Role};
-use welkin_runtime::internals::clear_sky::galaxy::EXTINCTION;
+use welkin_runtime::internals::clear_sky::galaxy::{EXTINCTION, SEAM};
 use welkin_runtime::internals::frame::Uniforms;
 use welkin_runtime::internals::pack_data::PackData;
 use welkin_runtime::params::Shading;
@@ -375,8 +375,15 @@ impl Frame<'_> {
         let mut radiance = sky::radiance(uniforms, &self.sky, &twin.clouds, direction);
         if uniforms.sky.night > 0.0 && direction.y > 0.0 {
             let own = stars::place(uniforms, direction);
-            let galaxy =
-                galaxy::brightness(&uniforms.galaxy, &twin.galaxy, &twin.clouds, own.direction);
+            let galaxy_at = |direction| {
+                galaxy::brightness(&uniforms.galaxy, &twin.galaxy, &twin.clouds, direction)
+            };
+            let mut galaxy = galaxy_at(own.direction);
+            if uniforms.stars.is_placed > 0.5 && own.direction.y < SEAM {
+                let other = galaxy_at(stars::turned(uniforms, own.direction));
+                let share = 0.5 - 0.5 * smoothstep(0.0, SEAM, own.direction.y);
+                galaxy += (other - galaxy) * share;
+            }
             let seen = Seen { direction, pixel };
             let stars = stars::radiance(uniforms, twin.pack, seen, own, self.seconds, galaxy);
             let planets = planets::radiance(uniforms, direction, pixel);

@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3, Vec3Swizzles};
 use welkin_pack::air::AUREOLE_LOBES;
 use welkin_pack::role::Wrap;
 use welkin_runtime::SkyParams;
-use welkin_runtime::internals::clear_sky::ground::{BACKSCATTER, FINER, FINER_MOTTLING, MOTTLING};
+use welkin_runtime::internals::clear_sky::ground::{BACKSCATTER, FINER, MOTTLING};
 use welkin_runtime::internals::clear_sky::picture::BEND;
 use welkin_runtime::internals::clear_sky::table::{AUREOLE_END, AUREOLE_LEAST};
 use welkin_runtime::internals::frame::Uniforms;
@@ -43,7 +43,7 @@ pub fn radiance(uniforms: &Uniforms, texture: &Texture, clouds: &Texture, direct
     let facing = 1.0 - BACKSCATTER * direction.dot(sky.sun_direction);
     let lit = ground.skylit + ground.sunlit * (facing / (ground.sun_sin - direction.y));
     let pattern = 1.0 + MOTTLING * noise;
-    let radiance = lit * pattern * (1.0 + FINER_MOTTLING * finer);
+    let radiance = lit * pattern * (1.0 + ground.finer_mottling * finer);
     let through = Vec3::from((-ground.depth * away).to_array().map(libm::exp2f));
     light + (radiance - light) * through
 }

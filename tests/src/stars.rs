@@ -30,7 +30,7 @@ pub struct Seen {
 }
 
 /// Half a turn about the galaxy's nodes.
-fn turned(uniforms: &Uniforms, direction: Vec3) -> Vec3 {
+pub fn turned(uniforms: &Uniforms, direction: Vec3) -> Vec3 {
     let own = &uniforms.stars;
     let node = Vec3::new(own.node_east, 0.0, own.node_south);
     Quat::from_axis_angle(node, PI) * direction

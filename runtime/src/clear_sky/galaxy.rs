@@ -20,6 +20,7 @@ pub const PART: Part = Part {
     constants: &[
         ("EXTINCTION", Value::F32(EXTINCTION)),
         ("GALAXY_GRAIN_SCALE", Value::F32(GRAIN_SCALE)),
+        ("GALAXY_SEAM", Value::F32(SEAM)),
         ("GALAXY_UV_SCALE", Value::F32(UV_SCALE)),
     ],
     structs: &[GalaxyUniforms::WGSL],
@@ -46,6 +47,9 @@ uniforms! {
 
 /// Stars and galaxy fade over this sine of the elevation above the horizon: the air takes their light.
 pub const EXTINCTION: f32 = 0.16;
+
+/// Sine of the declination below which the two halves of the dome of a date go over into each other: the texture's edge goes on in both.
+pub const SEAM: f32 = 0.2;
 
 /// Radiance of the brightest place.
 const LIGHT: Vec3 = Vec3::new(0.085, 0.098, 0.135);

@@ -20,7 +20,7 @@
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use welkin_pack::air::{AEROSOL_SCALE_KM, Colour, MOLECULE_SCALE_KM, aerosol, rayleigh};
 
-use crate::geometry::math::luminance;
+use crate::geometry::math::{luminance, smoothstep};
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
 
@@ -30,7 +30,6 @@ pub const PART: Part = Part {
         ("GROUND_MOTTLING", Value::Vec3(MOTTLING)),
         ("GROUND_FINER", Value::F32(FINER)),
         ("GROUND_FINER_LEVEL", Value::Log2(FINER)),
-        ("GROUND_FINER_MOTTLING", Value::F32(FINER_MOTTLING)),
         ("GROUND_BACKSCATTER", Value::F32(BACKSCATTER)),
     ],
     structs: &[GroundUniforms::WGSL],
@@ -56,8 +55,8 @@ uniforms! {
         sun_sin: f32,
         /// Its radiance by sunlight where the law of Lommel and Seeliger is 1.
         sunlit: Vec3,
-        /// Nothing.
-        _pad: f32,
+        /// How much brighter it is for each 1 that the second read lies over the mean.
+        finer_mottling: f32,
     }
 }
 
@@ -71,7 +70,9 @@ pub const MOTTLING: Vec3 = Vec3::new(1.2, 1.05, 0.85);
 /// How much finer the second read is. A whole number: places are reduced by whole tiles.
 pub const FINER: f32 = 23.0;
 /// How much brighter the ground is for each 1 that the second read lies over the mean.
-pub const FINER_MOTTLING: f32 = 1.2;
+const FINER_MOTTLING: f32 = 1.2;
+/// Heights of the viewer up to which all of that is seen, and from which nothing: from higher up one sees its tiles.
+const FINER_UP_TO_M: [f32; 2] = [200.0, 1000.0];
 
 /// How much brighter than its mean the ground is away from the sun, and darker towards it.
 pub const BACKSCATTER: f32 = 0.4;
@@ -124,7 +125,8 @@ pub fn uniforms(
         mean: noise.mean,
         sun_sin: light.sun_sin.max(1e-3),
         sunlit: albedo * light.sun * light.sun_sin.max(0.0),
-        ..Default::default()
+        finer_mottling: FINER_MOTTLING
+            * (1.0 - smoothstep(FINER_UP_TO_M[0], FINER_UP_TO_M[1], height_m)),
     }
 }
 

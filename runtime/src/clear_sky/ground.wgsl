@@ -14,6 +14,6 @@ fn ground_seen(horizon: vec3f, direction: vec3f) -> vec3f {
     let finer = textureSampleLevel(clouds_texture, repeat_sampler, uv * GROUND_FINER, level + GROUND_FINER_LEVEL).b - ground.mean;
     let facing = 1.0 - GROUND_BACKSCATTER * dot(direction, uniforms.sky.sun_direction);
     let lit = ground.skylit + ground.sunlit * (facing * (both * down));
-    let radiance = lit * (1.0 + GROUND_MOTTLING * noise) * (1.0 + GROUND_FINER_MOTTLING * finer);
+    let radiance = lit * (1.0 + GROUND_MOTTLING * noise) * (1.0 + ground.finer_mottling * finer);
     return mix(horizon, radiance, exp2(-ground.depth * away));
 }

@@ -22,8 +22,8 @@
 //!
 //! With a date the texture's dome does not stand over the viewer but over the north pole of J2000, its north at right ascension 0, and turns with
 //! the stars ([`crate::almanac::stars`]), lifted by the air. It is one hemisphere: the other is the same turned half about the line along which the galaxy crosses the
-//! equator, so that the band goes on where it is. Where the two meet, a star whose tent reaches across loses what is beyond, and beside
-//! the band's middle the galaxy's glow has a faint step.
+//! equator, so that the band goes on where it is. Where the two meet, a star whose tent reaches across loses what is beyond, and
+//! the galaxies of both are mixed.
 //!
 //! # Practice
 //! One texture read a pixel at night, the rest only where there is a star (about one pixel in 40). Where a texel is too

@@ -10,7 +10,11 @@ fn behind_clouds(direction: vec3f, pixel: vec2f, clear: f32) -> vec3f {
             own = star_turned(own);
         }
         let dome = direction_to_dome(own);
-        let galaxy = galaxy_brightness(dome);
+        var galaxy = galaxy_brightness(dome);
+        if uniforms.stars.is_placed > 0.5 && own.y < GALAXY_SEAM {
+            let other = galaxy_brightness(direction_to_dome(star_turned(own)));
+            galaxy = mix(galaxy, other, 0.5 - 0.5 * smoothstep(0.0, GALAXY_SEAM, own.y));
+        }
         var night = galaxy * uniforms.galaxy.radiance + star_radiance(dome, own.y, direction, pixel, galaxy, is_turned);
         if uniforms.stars.is_placed > 0.5 {
             night += planet_radiance(pixel) * star_spread(direction);

@@ -118,7 +118,7 @@ const TILE: [f64; 2] = [7.0, 3.4];
 /// How the map is turned against the world, in radians: the article moves octaves along the axes of the map.
 const TURN: f64 = 0.52;
 /// Where the map lies over the viewer.
-const START: DVec2 = DVec2::new(0.41, 0.27);
+const START: DVec2 = DVec2::new(0.407, 0.326);
 
 /// From a to b in standard deviations of the sum, at sharpness 0 and 1.
 const SLOPE: [f32; 2] = [3.6, 0.4];
