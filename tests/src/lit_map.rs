@@ -10,8 +10,7 @@ use welkin_runtime::internals::clouds::lit::{LitLayerUniforms, LitUniforms};
 use welkin_runtime::internals::clouds::shared::MULTIPLE;
 use welkin_runtime::params::{MAX_LAYERS, Shading};
 
-use crate::octaves_map::normal_share;
-use crate::photo::{Photo, over_even};
+use crate::photo::{Photo, normal_share, over_even};
 use crate::texture::{Texture, mix, smoothstep};
 
 /// Level 0 of each layer in use, not rounded. By the paper's shading: light that falls on the cloud, amount, opacity, shade; by the other: what

@@ -7,12 +7,12 @@ use welkin_pack::Image;
 use welkin_runtime::internals::clouds::octaves::OctaveUniforms;
 use welkin_runtime::internals::clouds::octaves::map::{NOISE_SIDE, RELIEF_COUNT};
 use welkin_runtime::internals::clouds::octaves::{EDGE, THIN};
-use welkin_runtime::internals::geometry::math::{NORMAL_BEND, NORMAL_SLOPE};
+use welkin_runtime::internals::geometry::math::NORMAL_SLOPE;
 use welkin_runtime::params::Shading;
 
 use crate::gpu;
 use crate::octaves::alpha;
-use crate::photo::Photo;
+use crate::photo::{Photo, normal_share};
 
 /// The uniform cubic B-spline of width 4 about 0: I. J. Schoenberg, "Contributions to the Problem of Approximation
 /// of Equidistant Data by Analytic Functions", Quarterly of Applied Mathematics 4, 1946.
@@ -20,11 +20,6 @@ pub fn spline(t: f32) -> f32 {
     let t = t.abs();
     let (inner, outer) = ((1.0 - t).max(0.0), (2.0 - t).max(0.0));
     (outer * outer * outer - 4.0 * inner * inner * inner) / 6.0
-}
-
-/// The share of a normal distribution below z, as the runtime approximates it.
-pub fn normal_share(z: f32) -> f32 {
-    0.5 + 0.5 * libm::tanhf(NORMAL_SLOPE * z * (1.0 + NORMAL_BEND * z * z))
 }
 
 /// Level 0 of the map, not rounded: amount, opacity of the low and of the middle dome, sunlight that the low dome leaves or its

@@ -2,9 +2,14 @@
 
 use glam::Vec2;
 use welkin_runtime::internals::clouds::photo::PhotoUniforms;
+use welkin_runtime::internals::geometry::math::{NORMAL_BEND, NORMAL_SLOPE};
 
-use crate::octaves_map::normal_share;
 use crate::texture::Texture;
+
+/// The share of a normal distribution below z, as the runtime approximates it.
+pub fn normal_share(z: f32) -> f32 {
+    0.5 + 0.5 * libm::tanhf(NORMAL_SLOPE * z * (1.0 + NORMAL_BEND * z * z))
+}
 
 /// The photograph, and how it is mixed into a method's map.
 #[derive(Clone, Copy, Debug)]
