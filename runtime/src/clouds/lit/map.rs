@@ -88,7 +88,7 @@ pub const RELIEF_FULL: f32 = 4.0;
 pub const EVENED_RELIEF: f32 = 0.7;
 
 /// Standard deviations of the ranks of fibres and of lumps, as coarse as a layer of cirrus reads them; `layers` is the pack's texture.
-pub(crate) fn spreads(layers: &Texture) -> Vec2 {
+pub fn spreads(layers: &Texture) -> Vec2 {
     let levels = [
         (LayerKind::Cirrus, FIBRE_LEVEL),
         (LayerKind::Cumulus, look(LayerKind::Cirrus).second_level),
