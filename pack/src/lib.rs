@@ -30,6 +30,7 @@ pub mod role;
 #[cfg(all(feature = "write", not(target_family = "wasm")))]
 mod save;
 mod shown;
+pub mod starlight;
 #[cfg(test)]
 #[cfg(feature = "write")]
 mod test_field;

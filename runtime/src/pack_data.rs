@@ -7,7 +7,7 @@ use welkin_pack::mapping::{direction_from_angles, direction_to_galaxy_uv};
 use welkin_pack::{Pack, Role, StarTexel, Texture};
 
 use crate::clear_sky::light::LitSky;
-use crate::clear_sky::moment::Moment;
+use crate::clear_sky::moment::{Lighting, Moment};
 use crate::clear_sky::table::SkyTable;
 #[cfg(feature = "fbm")]
 use crate::clouds::fbm::map::Octaves;
@@ -118,8 +118,12 @@ impl PackData {
 
     /// The light of a moment and its clear sky. `params` are in range.
     pub fn lit_sky(&self, params: &SkyParams, seconds: f64) -> LitSky {
-        let moment = self.moment(params, seconds);
-        LitSky::new(&self.sky, &moment, params.haze, params.moon)
+        self.lit_sky_at(&(self.moment(params, seconds), [params.haze, params.moon]))
+    }
+
+    /// The same of a moment that is known.
+    pub fn lit_sky_at(&self, (moment, [haze, moon]): &Lighting) -> LitSky {
+        LitSky::new(&self.sky, moment, *haze, *moon)
     }
 
     /// The states of the octaves method's noise at a moment: see [`octaves::map::states`].

@@ -115,6 +115,12 @@ pub fn level(hit: &DomeHit, narrowing: f32) -> f32 {
     0.5 * libm::log2f((side * side / hit.cos_incidence).max(1e-12))
 }
 
+/// A wave of period 1 between -1 and 1, of two parabolas.
+pub fn wave(x: f32) -> f32 {
+    let turn = 2.0 * (x - x.floor()) - 1.0;
+    4.0 * turn * (turn.abs() - 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

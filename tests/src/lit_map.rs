@@ -10,7 +10,8 @@ use welkin_runtime::internals::clouds::lit::{LitLayerUniforms, LitUniforms};
 use welkin_runtime::internals::clouds::shared::MULTIPLE;
 use welkin_runtime::params::{MAX_LAYERS, Shading};
 
-use crate::photo::{Photo, normal_share, over_even};
+use crate::clouds::wave;
+use crate::photo::{Photo, even_blend, normal_share, over_even};
 use crate::texture::{Texture, mix, smoothstep};
 
 /// Level 0 of each layer in use, not rounded. By the paper's shading: light that falls on the cloud, amount, opacity, shade; by the other: what
@@ -167,13 +168,9 @@ pub fn allowance(
         .collect()
 }
 
-/// The share of places where two even numbers, weighed and added, are less than this: the area below a slanted line in the unit
-/// square, as areas of triangles.
+/// The share of places where both reads, weighed and added, are less than this.
 pub fn even(blend: f32) -> f32 {
-    let [larger, smaller] = WEIGHTS;
-    let triangle = |side: f32| 0.5 * side.max(0.0) * side.max(0.0);
-    let outside = triangle(blend - larger) + triangle(blend - smaller);
-    (triangle(blend) - outside + triangle(blend - larger - smaller)) / (larger * smaller)
+    even_blend(blend, WEIGHTS[1])
 }
 
 /// What a layer is computed from in a place.
@@ -246,10 +243,6 @@ impl Place {
 
 /// Where the fibres of a place of cirrus are.
 fn bent(uv: Vec2) -> Vec2 {
-    let wave = |x: f32| {
-        let turn = 2.0 * (x - x.floor()) - 1.0;
-        4.0 * turn * (turn.abs() - 1.0)
-    };
     let [long, short, along, short_along] = BENDS;
     let v = uv.y + long * wave(uv.x) + short * wave(2.0 * uv.x + 0.16);
     Vec2::new(

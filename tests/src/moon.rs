@@ -4,6 +4,7 @@ use glam::{Vec3, Vec4};
 use welkin_runtime::internals::clear_sky::sun::HORIZON;
 use welkin_runtime::internals::frame::Uniforms;
 
+use crate::sun::disc_shown;
 use crate::texture::smoothstep;
 
 /// Radiance of the moon's disc along a unit direction, of which a share comes through, and how far it covers what is behind it.
@@ -20,6 +21,5 @@ pub fn seen(uniforms: &Uniforms, direction: Vec3, share: f32) -> Vec4 {
     let lit = 2.0 * sunny / (sunny + towards).max(1e-4);
     let risen = smoothstep(-HORIZON, HORIZON, direction.y);
     let light = share * (moon.lit * lit + moon.earthlit);
-    let shown = (uniforms.sun.brightest / light.max_element().max(1e-6)).min(1.0);
-    (light * (shown * covered * risen)).extend(covered)
+    (disc_shown(uniforms, light) * (covered * risen)).extend(covered)
 }

@@ -24,8 +24,7 @@ fn uv(dome: &OctaveDome, plane: Vec2) -> Vec2 {
 
 /// Where the fibres of the high dome are read.
 fn bent(uv: Vec2) -> Vec2 {
-    let turn = 2.0 * (uv.y - uv.y.floor()) - 1.0;
-    uv + Vec2::new(BEND * turn * (turn.abs() - 1.0), 0.0)
+    uv + Vec2::new(BEND * clouds::wave(uv.y), 0.0)
 }
 
 /// See [`crate::methods::layer`]. Reads: opacity and grey of the low clouds, the finer amount, opacity of the middle clouds,

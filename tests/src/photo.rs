@@ -57,13 +57,17 @@ impl Photo<'_> {
     }
 }
 
-/// An evenly distributed amount blended with another of a share, made even again: the area below a slanted line in the unit square, as areas of
-/// triangles.
+/// An evenly distributed amount blended with another of a share, made even again.
 pub fn over_even(amount: f32, [share, other]: [f32; 2]) -> f32 {
-    if share == 0.0 {
-        return amount;
+    match share == 0.0 {
+        true => amount,
+        false => even_blend(amount + (other - amount) * share, share),
     }
-    let blend = amount + (other - amount) * share;
+}
+
+/// The share of places where two even numbers, of which the second has a share of the blend, are less than this: the area below a slanted line in
+/// the unit square, as areas of triangles.
+pub fn even_blend(blend: f32, share: f32) -> f32 {
     let triangle = |side: f32| 0.5 * side.max(0.0) * side.max(0.0);
     let outside = triangle(blend - share) + triangle(blend - (1.0 - share));
     (triangle(blend) - outside + triangle(blend - 1.0)) / (share * (1.0 - share))

@@ -22,7 +22,10 @@ pub fn radiance(uniforms: &Uniforms, texture: &Texture, direction: Vec3, share: 
     }
     let uv = place.map(|p| 0.5 + 0.5 * p);
     let covered = texture.sample(uv, sun.lod)[0] * smoothstep(-HORIZON, HORIZON, direction.y);
-    let disc = share * sun.disc;
-    let shown = (sun.brightest / disc.max_element().max(1e-6)).min(1.0);
-    share * glare + disc * (shown * covered)
+    share * glare + disc_shown(uniforms, share * sun.disc) * covered
+}
+
+/// What the target shows of the light of a disc, of sun or moon.
+pub fn disc_shown(uniforms: &Uniforms, light: Vec3) -> Vec3 {
+    light * (uniforms.sun.brightest / light.max_element().max(1e-6)).min(1.0)
 }

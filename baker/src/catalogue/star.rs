@@ -1,5 +1,7 @@
 //! A star of a catalogue.
 
+use welkin_pack::starlight::{light_of_magnitude, temperature_k};
+
 /// A star of a catalogue, in the equatorial coordinates of J2000.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Star {
@@ -14,18 +16,16 @@ pub struct Star {
 }
 
 impl Star {
-    /// Its light over that of a star of magnitude 0. N. Pogson, "Magnitudes of Thirty-six of the Minor Planets for the first day of each month of the year 1857", 1856.
+    /// Its light over that of a star of magnitude 0.
     pub fn light(&self) -> f64 {
-        libm::exp10(-0.4 * self.magnitude)
+        light_of_magnitude(self.magnitude)
     }
 
     /// The temperature of a black body of its colour, in kelvin, 2000 to 30000; of a star without one, that of the sun's colour, 0.65.
-    ///
-    /// F. J. Ballesteros, "New insights into black bodies", EPL 97, 2012, (14).
     pub fn temperature_k(&self) -> f64 {
-        // The bluest stars have -0.4; below -0.5 the formula has poles.
-        let x = 0.92 * self.colour_index.unwrap_or(0.65).clamp(-0.4, 4.0);
-        (4600.0 * (1.0 / (x + 1.7) + 1.0 / (x + 0.62))).clamp(2000.0, 30_000.0)
+        // The bluest stars have -0.4.
+        let colour_index = self.colour_index.unwrap_or(0.65).clamp(-0.4, 4.0);
+        temperature_k(colour_index).clamp(2000.0, 30_000.0)
     }
 }
 

@@ -119,7 +119,8 @@ pub fn observer_km(sidereal: f64, place: Place) -> DVec3 {
     )
 }
 
-fn about_z(v: DVec3, angle: f64) -> DVec3 {
+/// A vector turned about the pole, from x towards y.
+pub fn about_z(v: DVec3, angle: f64) -> DVec3 {
     let (sine, cosine) = (sin(angle), cos(angle));
     DVec3::new(cosine * v.x - sine * v.y, sine * v.x + cosine * v.y, v.z)
 }

@@ -4,7 +4,8 @@
 //! 0.002 degrees or 5 kilometres.
 
 use glam::DVec3;
-use libm::{cos, exp10, sin};
+use libm::{cos, sin};
+use welkin_pack::starlight::light_of_magnitude;
 
 use super::date::Date;
 use super::frames::{
@@ -49,7 +50,7 @@ impl Moon {
     pub fn light(&self) -> f64 {
         let angle_deg = self.phase_rad.to_degrees();
         let magnitudes = 0.026 * angle_deg + 4e-9 * angle_deg.powi(4);
-        exp10(-0.4 * magnitudes) * (MEAN_DISTANCE_KM / self.distance_km).powi(2)
+        light_of_magnitude(magnitudes) * (MEAN_DISTANCE_KM / self.distance_km).powi(2)
     }
 }
 

@@ -8,7 +8,7 @@ use glam::DVec3;
 use libm::{acos, cos, log10, sin};
 
 use super::date::Date;
-use super::frames::{centuries, of_angles, of_ecliptic, precessed, sidereal, to_world};
+use super::frames::{about_z, centuries, of_angles, of_ecliptic, precessed, sidereal, to_world};
 use super::place::Place;
 
 /// A planet.
@@ -198,18 +198,8 @@ fn heliocentric(t: f64, [start, rate]: Elements) -> DVec3 {
     let along = axis * (cos(anomaly) - eccentricity);
     let across = axis * (1.0 - eccentricity * eccentricity).sqrt() * sin(anomaly);
     let (turn, node) = ((perihelion - node).to_radians(), node.to_radians());
-    let (sine, cosine) = (sin(turn), cos(turn));
-    let (x, y) = (
-        cosine * along - sine * across,
-        sine * along + cosine * across,
-    );
-    let tilted = of_ecliptic(inclination.to_radians(), DVec3::new(x, y, 0.0));
-    let (sine, cosine) = (sin(node), cos(node));
-    DVec3::new(
-        cosine * tilted.x - sine * tilted.y,
-        sine * tilted.x + cosine * tilted.y,
-        tilted.z,
-    )
+    let in_orbit = about_z(DVec3::new(along, across, 0.0), turn);
+    about_z(of_ecliptic(inclination.to_radians(), in_orbit), node)
 }
 
 /// A planet from a place.

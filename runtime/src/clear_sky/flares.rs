@@ -15,7 +15,7 @@
 //! application to know ([`crate::SkyParams::flare`] 0 switches it off). Five looks at the clouds a vertex. Colours are those of the display, so
 //! no tone curve is taken of them; a picture that is exposed less has less of the flare.
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3};
 use welkin_pack::mapping::FlareCell;
 
 use crate::clear_sky::light::Light;
@@ -103,7 +103,7 @@ pub fn uniforms(
     texels: u32,
 ) -> FlareUniforms {
     let (width, height) = (camera.width_px, camera.height_px);
-    let sun = sun_on_screen(light.sun_direction, camera);
+    let sun = camera.on_screen(light.sun_direction);
     let in_view = sun.map_or(0.0, |sun| {
         1.0 - smoothstep(1.0 - EDGE, 1.0, sun.abs().max_element())
     });
@@ -137,11 +137,4 @@ pub fn uniforms(
         };
     }
     flares
-}
-
-/// Where the sun is in clip space, if it is before the camera.
-fn sun_on_screen(sun: Vec3, camera: &CameraUniforms) -> Option<Vec2> {
-    let along = |row: Vec4| sun.dot(row.truncate());
-    let w = along(camera.clip_w);
-    (w > 1e-4).then(|| Vec2::new(along(camera.clip_x), along(camera.clip_y)) / w)
 }

@@ -8,7 +8,7 @@ fn ground_seen(horizon: vec3f, direction: vec3f) -> vec3f {
     let both = 1.0 / (down * (ground.sun_sin + down));
     let away = both * (ground.sun_sin + down);
     let uv = ground.place + direction.xz * (away * ground.height_tiles);
-    // A pixel covers the square of the distance: as much more along the view as it is flatter.
+    // Half way between the short side of a pixel's footprint, the distance, and its long one, the square of it.
     let level = ground.lod - 1.5 * log2(down);
     let noise = textureSampleLevel(clouds_texture, repeat_sampler, uv, level).b - ground.mean;
     let finer = textureSampleLevel(clouds_texture, repeat_sampler, uv * GROUND_FINER, level + GROUND_FINER_LEVEL).b - ground.mean;

@@ -22,6 +22,9 @@ pub struct Moment {
     pub disc: Option<MoonDisc>,
 }
 
+/// All that the light of a moment depends on: where sun and moon stand; haze and the moon's strength.
+pub type Lighting = (Moment, [f32; 2]);
+
 /// How the moon of a date looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MoonDisc {

@@ -16,6 +16,7 @@
 use glam::Vec3;
 
 use crate::clear_sky::light::{MoonLight, SUN_RADIUS_RAD};
+use crate::clear_sky::sun::facing_axes;
 use crate::geometry::camera::Rays;
 use crate::geometry::part::Part;
 use crate::geometry::uniforms::uniforms;
@@ -80,15 +81,7 @@ pub fn uniforms(moon: Option<&MoonLight>, rays: &Rays, pixel_rad: f32) -> MoonUn
     };
     let radius = moon.radius_rad.max(LEAST_RADIUS_PX * pixel_rad);
     let edge = (0.5 * pixel_rad / radius).min(0.5);
-    let flattened = |axis: Vec3| axis - moon.direction * axis.dot(moon.direction);
-    // A moon exactly at the side of the screen leaves nothing of the right axis: take another.
-    let right = flattened(rays.right.normalize());
-    let right = match right.length_squared() > 1e-6 {
-        true => right,
-        false => flattened(rays.forward.normalize()),
-    };
-    let right = right.normalize();
-    let up = right.cross(moon.direction);
+    let (right, up) = facing_axes(moon.direction, rays);
     // Irradiance over pi is radiance times the square of the radius.
     let full = moon.full / (radius * radius);
     let lit_share = 0.5 + 0.5 * moon.phase_rad.cos();

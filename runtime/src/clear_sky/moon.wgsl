@@ -14,6 +14,5 @@ fn moon_seen(direction: vec3f, share: f32) -> vec4f {
     let lit = 2.0 * sunny / max(sunny + towards, 1e-4);
     let risen = smoothstep(-SUN_HORIZON, SUN_HORIZON, direction.y);
     let light = share * (moon.lit * lit + moon.earthlit);
-    let shown = min(1.0, uniforms.sun.brightest / max(max(light.r, light.g), max(light.b, 1e-6)));
-    return vec4f(light * (shown * covered * risen), covered);
+    return vec4f(disc_shown(light) * (covered * risen), covered);
 }

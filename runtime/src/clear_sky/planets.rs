@@ -3,14 +3,15 @@
 //! # Theory
 //! A planet is so bright that a tent of two pixels would be white whatever its light. It is drawn by the profile of A. F. J. Moffat, "A theoretical investigation of focal stellar
 //! images in the photographic emulsion and application to photographic photometry", Astronomy and Astrophysics 3, 1969, `(1 + r^2 / a^2)^-b`, so that the brighter one is also the larger.
-//! The radius a counts in pixels: on any screen it stays as small. Its sum over the pixels is the planet's light, by N. Pogson's law, where a star of the pack with an intensity of 1 is of magnitude 0.
+//! The radius a counts in pixels: on any screen it stays as small. Its sum over the pixels is the planet's light, by Pogson's law, where a star of the pack with an intensity of 1 is of magnitude 0.
 //!
-//! Colour goes from B-V to a temperature by F. J. Ballesteros, "New insights into black bodies", EPL 97, 2012, (14), and from there to one between those of the stars.
+//! Colour goes from B-V to a temperature ([`welkin_pack::starlight`]) and from there to one between those of the stars.
 //!
 //! # Practice
 //! Where they are on the screen is known to the CPU: a pixel of the night compares five distances.
 
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
+use welkin_pack::starlight::{light_of_magnitude, temperature_k};
 
 use crate::almanac::planets::{self, Planet};
 use crate::almanac::refraction::lifted;
@@ -59,8 +60,7 @@ fn sum() -> f32 {
 
 /// The colour of a B-V index, of about equal luminance.
 pub fn colour(colour_index: f32) -> Vec3 {
-    let x = 0.92 * colour_index;
-    let kelvin = 4600.0 * (1.0 / (x + 1.7) + 1.0 / (x + 0.62));
+    let kelvin = temperature_k(f64::from(colour_index)) as f32;
     // Those of 4000 and 12000 kelvin, by the reciprocal: so colours go evenly.
     let share = (1.0 / 4000.0 - 1.0 / kelvin) / (1.0 / 4000.0 - 1.0 / 12000.0);
     WARM.lerp(COLD, share.clamp(0.0, 1.0))
@@ -79,28 +79,21 @@ pub fn uniforms(
     for (i, planet) in Planet::ALL.into_iter().enumerate() {
         let seen = planets::seen(planet, date, place);
         let direction = lifted(seen.direction).as_vec3();
-        let Some([x, y]) = on_screen(direction, camera) else {
+        let Some(pixel) = pixel_of(direction, camera) else {
             continue;
         };
-        let light = libm::exp10(-0.4 * seen.magnitude) as f32 * one / sum();
-        planets.places[i] = Vec4::new(x, y, 1.0, end());
+        let light = light_of_magnitude(seen.magnitude) as f32 * one / sum();
+        planets.places[i] = Vec4::new(pixel.x, pixel.y, 1.0, end());
         planets.lights[i] = (colour(planet.colour_index()) * light).extend(0.0);
     }
     planets
 }
 
 /// Pixel coordinates of a direction above the horizon and before the camera.
-fn on_screen(direction: Vec3, camera: &CameraUniforms) -> Option<[f32; 2]> {
-    let of = |row: Vec4| row.truncate().dot(direction);
-    let depth = of(camera.clip_w);
-    if direction.y <= 0.0 || depth <= 1e-3 {
-        return None;
-    }
-    let (x, y) = (of(camera.clip_x) / depth, of(camera.clip_y) / depth);
-    Some([
-        (0.5 + 0.5 * x) * camera.width_px,
-        (0.5 - 0.5 * y) * camera.height_px,
-    ])
+fn pixel_of(direction: Vec3, camera: &CameraUniforms) -> Option<Vec2> {
+    let place = camera.on_screen(direction).filter(|_| direction.y > 0.0)?;
+    let size_px = Vec2::new(camera.width_px, camera.height_px);
+    Some((0.5 + Vec2::new(0.5, -0.5) * place) * size_px)
 }
 
 #[cfg(test)]

@@ -151,10 +151,7 @@ pub fn uniforms(
     stand: Option<Stand>,
 ) -> StarUniforms {
     let Levels { records, guided } = levels(texels, units.len(), pixel_rad);
-    let texel_sr = (STAR_TILE_SIDE / texels as f32) * (STAR_TILE_SIDE / texels as f32);
-    let pixel_sr = pixel_rad[0] * pixel_rad[1];
     let unit = units.get(records as usize).copied().unwrap_or(1.0);
-    let brightness = BRIGHTNESS * night * unit * texel_sr / pixel_sr;
     let number = |is: bool| f32::from(u8::from(is));
     let over_viewer = Stand {
         axes: [Vec3::X, Vec3::Y, Vec3::Z],
@@ -171,7 +168,7 @@ pub fn uniforms(
         level: records as f32,
         resolution: (texels >> records).max(1) as f32,
         period: period(seconds),
-        brightness,
+        brightness: unit * radiance_of_one(texels, pixel_rad, night),
         evenness: number(even),
         is_guided: number(guided),
         reach_rad: pixel_rad[0].hypot(pixel_rad[1]),

@@ -131,19 +131,19 @@ fn glare_of_white() -> f32 {
     GLARE * 10.0 * std::f32::consts::PI / degrees_a_radian.powi(3)
 }
 
-/// Two unit vectors perpendicular to the sun's direction and to each other, the first along the
+/// Two unit vectors perpendicular to the direction of sun or moon and to each other, the first along the
 /// screen's right as far as it can be.
-fn facing_axes(sun: Vec3, rays: &Rays) -> (Vec3, Vec3) {
-    let flattened = |axis: Vec3| axis - sun * axis.dot(sun);
+pub(super) fn facing_axes(direction: Vec3, rays: &Rays) -> (Vec3, Vec3) {
+    let flattened = |axis: Vec3| axis - direction * axis.dot(direction);
     let right = flattened(rays.right.normalize());
-    // A sun exactly at the side of the screen leaves nothing of the right axis: take another.
+    // One exactly at the side of the screen leaves nothing of the right axis: take another.
     let right = if right.length_squared() > 1e-6 {
         right
     } else {
         flattened(rays.forward.normalize())
     };
     let right = right.normalize();
-    (right, right.cross(sun))
+    (right, right.cross(direction))
 }
 
 #[cfg(test)]

@@ -15,7 +15,10 @@ fn sun_added(radiance: vec3f, direction: vec3f, share: f32) -> vec3f {
         return around;
     }
     let covered = textureSampleLevel(sun_texture, clamp_sampler, 0.5 + 0.5 * place, sun.lod).r;
-    let disc = share * sun.disc;
-    let shown = min(1.0, sun.brightest / max(max(disc.r, disc.g), max(disc.b, 1e-6)));
-    return around + disc * (shown * covered * smoothstep(-SUN_HORIZON, SUN_HORIZON, direction.y));
+    return around + disc_shown(share * sun.disc) * (covered * smoothstep(-SUN_HORIZON, SUN_HORIZON, direction.y));
+}
+
+// What the target shows of the light of a disc, of sun or moon.
+fn disc_shown(light: vec3f) -> vec3f {
+    return light * min(1.0, uniforms.sun.brightest / max(max(light.r, light.g), max(light.b, 1e-6)));
 }

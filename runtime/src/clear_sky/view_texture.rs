@@ -1,7 +1,7 @@
 //! The clear sky of the moment on a device.
 
 use crate::clear_sky::light::LitSky;
-use crate::clear_sky::moment::Moment;
+use crate::clear_sky::moment::Lighting;
 use crate::clear_sky::table::halves;
 
 /// The texture that the shader reads the clear sky from, and the light that goes with what is in it.
@@ -10,9 +10,6 @@ pub(crate) struct ViewTexture {
     pub texture: wgpu::Texture,
     written: Option<(Lighting, LitSky)>,
 }
-
-/// All that the light of a moment depends on: where sun and moon stand; haze and the moon's strength.
-pub(crate) type Lighting = (Moment, [f32; 2]);
 
 impl ViewTexture {
     /// An empty texture of half floats.
@@ -42,11 +39,11 @@ impl ViewTexture {
         &mut self,
         queue: &wgpu::Queue,
         moment: Lighting,
-        make: impl FnOnce() -> LitSky,
+        make: impl FnOnce(&Lighting) -> LitSky,
     ) -> &LitSky {
         let last = self.written.take().filter(|(last, _)| *last == moment);
         let lit = last.map(|(_, lit)| lit).unwrap_or_else(|| {
-            let lit = make();
+            let lit = make(&moment);
             self.write(queue, &lit);
             lit
         });

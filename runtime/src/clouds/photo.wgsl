@@ -25,14 +25,18 @@ fn photo_over(z: f32, uv: vec2f) -> f32 {
     return photo_rest() * z + uniforms.photo.weight * photo_deviation(uv);
 }
 
-// The same of an amount that is evenly distributed, 0 to 1: the blend of both is made even by the integral of a trapezoid.
+// The same of an amount that is evenly distributed, 0 to 1.
 fn photo_over_even(amount: f32, uv: vec2f) -> f32 {
     let photo = uniforms.photo;
     if photo.weight == 0.0 {
         return amount;
     }
     let share = photo.weight / (photo.weight + photo_rest());
-    let blend = mix(amount, normal_share(photo_deviation(uv)), share);
+    return even_blend(mix(amount, normal_share(photo_deviation(uv)), share), share);
+}
+
+// The share of places with less than this blend of two even numbers, of which the second has that share: the integral of a trapezoid.
+fn even_blend(blend: f32, share: f32) -> f32 {
     let foot = min(share, 1.0 - share);
     if blend < foot || blend > 1.0 - foot {
         let away = min(blend, 1.0 - blend);

@@ -86,3 +86,9 @@ fn cloud_level(hit: DomeHit, narrowing: f32) -> f32 {
     let side = hit.distance * narrowing;
     return 0.5 * log2(max(side * side * ((CLOUD_SPHERE_RADIUS + 1.0) * hit.slant), 1e-12));
 }
+
+// A wave of period 1 between -1 and 1, of two parabolas.
+fn cloud_wave(x: f32) -> f32 {
+    let t = 2.0 * fract(x) - 1.0;
+    return 4.0 * t * (abs(t) - 1.0);
+}

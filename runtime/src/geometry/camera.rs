@@ -40,6 +40,15 @@ uniforms! {
     }
 }
 
+impl CameraUniforms {
+    /// Where a direction is in clip space, -1 to 1 each way on the screen, if it is before the camera.
+    pub fn on_screen(&self, direction: Vec3) -> Option<Vec2> {
+        let along = |row: Vec4| direction.dot(row.truncate());
+        let w = along(self.clip_w);
+        (w > 1e-4).then(|| Vec2::new(along(self.clip_x), along(self.clip_y)) / w)
+    }
+}
+
 /// A perspective camera. The world is right-handed: +Y up, north -Z, east +X.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {

@@ -18,15 +18,11 @@ const PLAIN: &[Method] = &[
     #[cfg(feature = "sprites")]
     Method::Sprites,
 ];
-/// Those with noise of their own.
-const MAPPED: &[Method] = &[
-    #[cfg(feature = "octaves")]
-    Method::Octaves,
-    #[cfg(feature = "fbm")]
-    Method::Fbm,
-    #[cfg(feature = "lit")]
-    Method::Lit,
-];
+/// Those with noise of their own: every dome but the first, `packed`.
+const MAPPED: &[Method] = match Method::DOMES.split_first() {
+    Some((_, others)) => others,
+    None => &[],
+};
 const OCTAVES: &[Method] = &[
     #[cfg(feature = "octaves")]
     Method::Octaves,

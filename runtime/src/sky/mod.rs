@@ -243,7 +243,7 @@ impl Sky {
         let moment = (data.moment(&clamped, seconds), [clamped.haze, clamped.moon]);
         let lit = self
             .view
-            .lit(queue, moment, || data.lit_sky(&clamped, seconds));
+            .lit(queue, moment, |moment| data.lit_sky_at(moment));
         let clamped = data.exposed(lit, clamped, seconds);
         let params = clamped.dome();
         let uniforms = data.uniforms_under(lit, &clamped, camera, seconds, self.step);

@@ -7,19 +7,6 @@ struct LitTargets {
     @location(2) third: vec4f,
 }
 
-// The share of places with less than this blend of two even numbers: the integral of a trapezoid.
-fn lit_even(blend: f32) -> f32 {
-    let foot = LIT_SECOND_WEIGHT;
-    let corner = 0.5 / (LIT_FIRST_WEIGHT * LIT_SECOND_WEIGHT);
-    if blend < foot {
-        return corner * blend * blend;
-    }
-    if blend > LIT_FIRST_WEIGHT {
-        return 1.0 - corner * (1.0 - blend) * (1.0 - blend);
-    }
-    return (blend - 0.5 * foot) / LIT_FIRST_WEIGHT;
-}
-
 // The pack's texture where a layer reads it, both reads blended.
 struct LitNoise {
     normal: vec2f,
@@ -27,16 +14,10 @@ struct LitNoise {
     amount: f32,
 }
 
-// A wave of period 1 between -1 and 1, of two parabolas.
-fn lit_wave(x: f32) -> f32 {
-    let t = 2.0 * fract(x) - 1.0;
-    return 4.0 * t * (abs(t) - 1.0);
-}
-
 // The place whose fibres a place of cirrus has. Two shears bend them: areas stay as large as they are, and shares of the layer with them.
 fn lit_bent(uv: vec2f) -> vec2f {
-    let v = uv.y + LIT_BENDS.x * lit_wave(uv.x) + LIT_BENDS.y * lit_wave(2.0 * uv.x + 0.16);
-    return vec2f(uv.x + LIT_BENDS.z * lit_wave(v + 0.32) + LIT_BENDS.w * lit_wave(3.0 * v), v);
+    let v = uv.y + LIT_BENDS.x * cloud_wave(uv.x) + LIT_BENDS.y * cloud_wave(2.0 * uv.x + 0.16);
+    return vec2f(uv.x + LIT_BENDS.z * cloud_wave(v + 0.32) + LIT_BENDS.w * cloud_wave(3.0 * v), v);
 }
 
 // The first read of a layer.
@@ -60,7 +41,7 @@ fn lit_noise(layer: LitLayerUniforms, uv: vec2f, level: f32) -> LitNoise {
         second.a = normal_share((second.a - 0.5) / layer.spreads.y);
     }
     let blend = LIT_FIRST_WEIGHT * first + LIT_SECOND_WEIGHT * second;
-    return LitNoise(blend.rg, blend.b, photo_over_even(lit_even(blend.a), uv));
+    return LitNoise(blend.rg, blend.b, photo_over_even(even_blend(blend.a, LIT_SECOND_WEIGHT), uv));
 }
 
 // How high the cloud of a place is, 1 for a thick one. An overcast is as high everywhere but for its rolls.

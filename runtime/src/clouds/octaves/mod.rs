@@ -153,8 +153,8 @@ const MIDDLE_TILE: f64 = 3.6;
 const HIGH_TILE: [f64; 2] = [2.3, 12.0];
 /// How much coarser the high dome is read: a veil, not strokes.
 pub const VEIL_LEVEL: f32 = 1.4;
-/// How far the streaks of the high dome are bent, in tiles, as a factor on a wave of a quarter.
-pub const BEND: f32 = 1.6;
+/// How far the streaks of the high dome are bent, in tiles.
+pub const BEND: f32 = 0.4;
 /// How the domes are turned against the world, in radians: no two alike, none along an axis.
 const TURNS: [f64; 3] = [0.4, 1.37, 2.5];
 /// Where the wind of each dome goes (east, south), in units of the low dome's in metres a second. It veers and

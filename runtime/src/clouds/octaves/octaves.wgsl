@@ -6,8 +6,7 @@ fn octaves_uv(dome: OctaveDome, plane: vec2f) -> vec2f {
 
 // Fibres are bent by a shear along them, or they would be streaks from one point of the horizon. Areas stay, and so does the share of the sky.
 fn octaves_bent(uv: vec2f) -> vec2f {
-    let turn = 2.0 * fract(uv.y) - 1.0;
-    return vec2f(uv.x + OCTAVE_BEND * turn * (abs(turn) - 1.0), uv.y);
+    return vec2f(uv.x + OCTAVE_BEND * cloud_wave(uv.y), uv.y);
 }
 
 // What the map holds: see map.wgsl.
