@@ -14,7 +14,8 @@ use kinds::WrongKind;
 use tables::Tables;
 
 /// The recipe that is used when none is given; it spells out every default.
-pub const DEFAULT_RECIPE: &str = include_str!("../../assets-src/recipes/default.toml");
+pub const DEFAULT_RECIPE: &str =
+    include_str!(concat!(env!("WELKIN_ASSETS"), "/recipes/default.toml"));
 
 /// The name that errors give the built-in recipe.
 const BUILT_IN: &str = "built-in recipe";

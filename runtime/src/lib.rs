@@ -69,11 +69,12 @@ pub use internals::almanac;
 pub use internals::clouds::lit::shadow;
 pub use internals::device::config::{DepthConfig, SkyConfig};
 pub use internals::error::SkyError;
+pub use internals::geometry::axes::Axes;
 pub use internals::geometry::camera::Camera;
 pub use internals::oktas::Oktas;
 pub use internals::params::{self, Method, SkyParams};
-pub use internals::sky::air;
-pub use internals::sky::{Luminary, Sky, SkyLight};
+pub use internals::sky::{Luminary, Sky, SkyLight, View};
+pub use internals::sky::{air, light};
 
 #[cfg(feature = "sprites")]
 pub(crate) use internals::sprites;

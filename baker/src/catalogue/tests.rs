@@ -2,7 +2,7 @@ use std::fmt::Write;
 
 use super::*;
 
-const REAL: &[u8] = include_bytes!("../../../assets-src/stars/stars.6.json");
+const REAL: &[u8] = include_bytes!(concat!(env!("WELKIN_ASSETS"), "/stars/stars.6.json"));
 
 fn told(text: &str) -> String {
     read("s.cat", text.as_bytes()).unwrap_err().to_string()

@@ -43,9 +43,10 @@ use crate::settings::{PhotoRegion, PhotoSeam, PhotoSettings};
 
 /// The photograph that is used when a recipe names none; assets-src/SOURCES.md says whose it is.
 #[cfg(feature = "photo")]
-pub(crate) const BUILT_IN: Option<&[u8]> = Some(include_bytes!(
-    "../../../assets-src/photos/god-rays-1024.png"
-));
+pub(crate) const BUILT_IN: Option<&[u8]> = Some(include_bytes!(concat!(
+    env!("WELKIN_ASSETS"),
+    "/photos/god-rays-1024.png"
+)));
 /// It is larger than the rest of the library, so that it may be left out.
 #[cfg(not(feature = "photo"))]
 pub(crate) const BUILT_IN: Option<&[u8]> = None;

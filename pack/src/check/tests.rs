@@ -105,7 +105,7 @@ fn every_rule_has_a_test_here_and_a_place_in_the_documentation() {
         include_str!("tests/stars.rs"),
     );
     let tests: String = tests.split_whitespace().collect();
-    let documentation = include_str!("../../../docs/checks.md");
+    let documentation = include_str!("../../docs/checks.md");
     for rule in RULES {
         let planted = [
             format!("assert_only(\"{}\"", rule.id),

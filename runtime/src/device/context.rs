@@ -1,8 +1,11 @@
-//! What every pipeline is made from.
+//! What every pipeline is made from, and the pipelines that were made.
+
+use std::collections::HashMap;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use super::config::SkyConfig;
 use super::layouts::Layouts;
-use super::pipeline::{Overlay, Variant, overlay_pipeline, pipelines};
+use super::pipeline::{Drawing, Overlay, Variant, overlay, screen};
 use super::shader::Build;
 use crate::params::{Method, Shading, SkyModel};
 
@@ -17,6 +20,22 @@ pub struct Dome {
     pub sky: SkyModel,
     /// Whether rays, rain and lightning are compiled in.
     pub weather: bool,
+}
+
+/// The shader of a dome. It is compiled when a pipeline is made of it that was not made before.
+#[derive(Clone, Debug)]
+pub(crate) struct Shader {
+    dome: Dome,
+    module: OnceLock<wgpu::ShaderModule>,
+}
+
+impl Shader {
+    pub fn new(dome: Dome) -> Shader {
+        Shader {
+            dome,
+            module: OnceLock::new(),
+        }
+    }
 }
 
 /// What every pipeline is made from.
@@ -36,6 +55,8 @@ pub(crate) struct Context {
     pub mesh: bool,
     /// Whether the target can be blended with.
     pub blends: bool,
+    /// The pipelines by what they are made of: all views of a sky draw with the same.
+    pub made: Mutex<HashMap<String, wgpu::RenderPipeline>>,
 }
 
 impl Context {
@@ -44,35 +65,81 @@ impl Context {
         self.own[method as usize].as_ref()
     }
 
-    /// The shader of a dome.
-    pub fn module(&self, dome: Dome) -> wgpu::ShaderModule {
-        let text = (self.compose)(self.build, dome);
-        let source = wgpu::ShaderSource::Wgsl(text.into());
-        let label = Some(dome.method.name());
-        self.device
-            .create_shader_module(wgpu::ShaderModuleDescriptor { label, source })
+    /// A pipeline, unless it was made before.
+    pub fn pipeline(&self, shader: &Shader, drawing: &Drawing<'_>) -> wgpu::RenderPipeline {
+        let (dome, entries) = (shader.dome, drawing.entries);
+        let key = format!(
+            "{dome:?} {entries:?} {:?} {:?}",
+            drawing.constants, drawing.targets
+        );
+        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        let pipeline = made.entry(key).or_insert_with(|| {
+            let module = shader.module.get_or_init(|| self.module(dome));
+            drawing.pipeline(&self.device, &self.layouts, module)
+        });
+        pipeline.clone()
     }
 
     /// The pipelines of a dome; `own` is the layout of its group 1, if it has one.
     pub fn pipelines(
         &self,
-        module: &wgpu::ShaderModule,
+        shader: &Shader,
         own: Option<&wgpu::BindGroupLayout>,
         weather: bool,
     ) -> [wgpu::RenderPipeline; 4] {
-        let (device, config, layouts) = (&self.device, &self.config, &self.layouts);
-        let variants = Variant::all(weather);
-        pipelines(device, config, module, layouts, own, self.mesh, variants)
+        let pipeline = |variant: Variant| {
+            screen(&self.config, own, self.mesh, variant, |drawing| {
+                self.pipeline(shader, drawing)
+            })
+        };
+        Variant::all(weather).map(pipeline)
     }
 
     /// The pipeline of what is drawn over the sky; `own` is the layout of its group 1.
     pub fn overlay(
         &self,
-        module: &wgpu::ShaderModule,
+        shader: &Shader,
         own: Option<&wgpu::BindGroupLayout>,
-        overlay: &Overlay,
+        drawn: &Overlay,
     ) -> wgpu::RenderPipeline {
-        let (device, config) = (&self.device, &self.config);
-        overlay_pipeline(device, config, module, &self.layouts, own, overlay)
+        overlay(&self.config, own, drawn, |drawing| {
+            self.pipeline(shader, drawing)
+        })
+    }
+
+    /// A pipeline that fills a whole target; `own` is the layout of its group 1, if it has one.
+    pub fn off_screen<'a>(
+        &self,
+        shader: &Shader,
+        entry: &str,
+        own: impl Into<Option<&'a wgpu::BindGroupLayout>>,
+        format: wgpu::TextureFormat,
+    ) -> wgpu::RenderPipeline {
+        self.off_screen_with(shader, entry, own, &[format], &[])
+    }
+
+    /// The same of several targets, with overridable constants.
+    pub fn off_screen_with<'a>(
+        &self,
+        shader: &Shader,
+        entry: &str,
+        own: impl Into<Option<&'a wgpu::BindGroupLayout>>,
+        formats: &[wgpu::TextureFormat],
+        constants: &[(&str, f64)],
+    ) -> wgpu::RenderPipeline {
+        let targets: Vec<_> = formats.iter().map(|&format| Some(format.into())).collect();
+        let drawing = Drawing {
+            constants,
+            ..Drawing::new(["vs_map", entry], own.into(), &targets)
+        };
+        self.pipeline(shader, &drawing)
+    }
+
+    fn module(&self, dome: Dome) -> wgpu::ShaderModule {
+        let text = (self.compose)(self.build, dome);
+        let source = wgpu::ShaderSource::Wgsl(text.into());
+        let label = Some(dome.method.name());
+        self.device
+            .create_shader_module(wgpu::ShaderModuleDescriptor { label, source })
     }
 }

@@ -76,51 +76,6 @@ impl Layouts {
         group(device, &self.lit, &[(1, &array(layers)), (2, &array(map))])
     }
 
-    /// A pipeline that fills a whole target; `own` is the layout of its group 1, if it has one.
-    pub fn off_screen<'a>(
-        &self,
-        device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        entry_point: &str,
-        own: impl Into<Option<&'a wgpu::BindGroupLayout>>,
-        format: wgpu::TextureFormat,
-    ) -> wgpu::RenderPipeline {
-        self.off_screen_with(device, module, entry_point, own, &[format], &[])
-    }
-
-    /// The same of several targets, with overridable constants.
-    pub fn off_screen_with<'a>(
-        &self,
-        device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        entry_point: &str,
-        own: impl Into<Option<&'a wgpu::BindGroupLayout>>,
-        formats: &[wgpu::TextureFormat],
-        constants: &[(&str, f64)],
-    ) -> wgpu::RenderPipeline {
-        let layout = self.pipeline_layout(device, own.into());
-        let targets: Vec<_> = formats.iter().map(|&f| Some(f.into())).collect();
-        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(entry_point),
-            layout: Some(&layout),
-            vertex: vertex_state(module, "vs_map", &[]),
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module,
-                entry_point: Some(entry_point),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    constants,
-                    ..Default::default()
-                },
-                targets: &targets,
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
-    }
-
     /// The layout of a pipeline whose group 1, if it has one, is `own`.
     pub fn pipeline_layout(
         &self,
@@ -215,19 +170,6 @@ fn shared_layout(device: &wgpu::Device, uniform_bytes: u64) -> wgpu::BindGroupLa
         label: Some("sky, shared"),
         entries: &entries,
     })
-}
-
-pub(crate) fn vertex_state<'a>(
-    module: &'a wgpu::ShaderModule,
-    entry_point: &'a str,
-    buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
-) -> wgpu::VertexState<'a> {
-    wgpu::VertexState {
-        module,
-        entry_point: Some(entry_point),
-        compilation_options: Default::default(),
-        buffers,
-    }
 }
 
 #[cfg(test)]

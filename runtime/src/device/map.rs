@@ -4,6 +4,7 @@
 //! The map is drawn, then each level is averaged from the one above it: one pass each, down to 32 texels, for the dome
 //! names the level that it reads. A map tiles.
 
+use crate::device::context::{Context, Shader};
 use crate::device::layouts::{Layouts, array_layers};
 use crate::geometry::part::Part;
 
@@ -113,17 +114,17 @@ pub(crate) struct Plane {
 impl Plane {
     /// An empty plane of `side` texels a side, a power of two, that an entry point draws from an array.
     pub fn new(
-        device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        layouts: &Layouts,
+        context: &Context,
+        shader: &Shader,
         (entry, side): (&str, u32),
         source: &wgpu::Texture,
     ) -> Plane {
-        let averaging = layouts.off_screen(device, module, "fs_level", &layouts.texture, FORMAT);
+        let (device, layouts) = (&context.device, &context.layouts);
+        let averaging = context.off_screen(shader, "fs_level", &layouts.texture, FORMAT);
         let map = Map::new(device, layouts, vec![averaging], [side, 1]);
         Plane {
             source: layouts.layers_group(device, source),
-            pipeline: layouts.off_screen(device, module, entry, &layouts.layers, FORMAT),
+            pipeline: context.off_screen(shader, entry, &layouts.layers, FORMAT),
             group: plane_group(device, layouts, &map),
             map,
         }

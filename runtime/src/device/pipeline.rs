@@ -1,6 +1,5 @@
 //! The pipelines: configuration, variants, and the states that put the sky behind a scene.
 
-use super::layouts::vertex_state;
 use crate::device::config::{DepthConfig, SkyConfig};
 use crate::device::layouts::Layouts;
 use crate::geometry::dome::Vertex;
@@ -46,56 +45,110 @@ impl Variant {
     }
 }
 
-/// Builds a pipeline for each of these variants, for the triangle over the screen or for the dome's mesh.
-pub(crate) fn pipelines(
-    device: &wgpu::Device,
+/// What a pipeline draws, and how.
+pub(crate) struct Drawing<'a> {
+    /// Of the vertex and the fragment shader.
+    pub entries: [&'a str; 2],
+    /// The layout of group 1, if it has one.
+    pub own: Option<&'a wgpu::BindGroupLayout>,
+    /// The shader's overridable constants.
+    pub constants: &'a [(&'a str, f64)],
+    pub vertices: &'a [Option<wgpu::VertexBufferLayout<'a>>],
+    pub primitive: wgpu::PrimitiveState,
+    pub depth: Option<wgpu::DepthStencilState>,
+    pub multisample: wgpu::MultisampleState,
+    pub targets: &'a [Option<wgpu::ColorTargetState>],
+}
+
+impl<'a> Drawing<'a> {
+    /// A triangle over targets without depth, of one sample.
+    pub fn new(
+        entries: [&'a str; 2],
+        own: Option<&'a wgpu::BindGroupLayout>,
+        targets: &'a [Option<wgpu::ColorTargetState>],
+    ) -> Drawing<'a> {
+        Drawing {
+            entries,
+            own,
+            constants: &[],
+            vertices: &[],
+            primitive: wgpu::PrimitiveState::default(),
+            depth: None,
+            multisample: wgpu::MultisampleState::default(),
+            targets,
+        }
+    }
+
+    /// Makes it of a shader.
+    pub fn pipeline(
+        &self,
+        device: &wgpu::Device,
+        layouts: &Layouts,
+        module: &wgpu::ShaderModule,
+    ) -> wgpu::RenderPipeline {
+        let [vertex, fragment] = self.entries;
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(fragment),
+            layout: Some(&layouts.pipeline_layout(device, self.own)),
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some(vertex),
+                compilation_options: Default::default(),
+                buffers: self.vertices,
+            },
+            primitive: self.primitive,
+            depth_stencil: self.depth.clone(),
+            multisample: self.multisample,
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some(fragment),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: self.constants,
+                    ..Default::default()
+                },
+                targets: self.targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+/// The pipeline of the sky itself, for the triangle over the screen or for the dome's mesh; `own` is the layout of its group 1.
+pub(crate) fn screen(
     config: &SkyConfig,
-    module: &wgpu::ShaderModule,
-    layouts: &Layouts,
     own: Option<&wgpu::BindGroupLayout>,
     dome_mesh: bool,
-    variants: [Variant; 4],
-) -> [wgpu::RenderPipeline; 4] {
-    let layout = layouts.pipeline_layout(device, own);
+    variant: Variant,
+    make: impl FnOnce(&Drawing<'_>) -> wgpu::RenderPipeline,
+) -> wgpu::RenderPipeline {
     let vertices = [Some(wgpu::VertexBufferLayout {
         array_stride: size_of::<Vertex>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &wgpu::vertex_attr_array![0 => Float32x3],
     })];
-    let (entry, buffers, primitive) = if dome_mesh {
-        (
-            "vs_dome",
-            &vertices[..],
-            wgpu::PrimitiveState {
-                topology: wgpu::PrimitiveTopology::TriangleStrip,
-                strip_index_format: Some(wgpu::IndexFormat::Uint16),
-                ..Default::default()
-            },
-        )
-    } else {
-        ("vs_screen", &[][..], wgpu::PrimitiveState::default())
+    let strip = wgpu::PrimitiveState {
+        topology: wgpu::PrimitiveTopology::TriangleStrip,
+        strip_index_format: Some(wgpu::IndexFormat::Uint16),
+        ..Default::default()
     };
-    variants.map(|variant| {
-        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("sky"),
-            layout: Some(&layout),
-            vertex: vertex_state(module, entry, buffers),
-            primitive,
-            depth_stencil: config.depth.map(depth_state),
-            multisample: multisample_state(config),
-            fragment: Some(wgpu::FragmentState {
-                module,
-                entry_point: Some("fs_sky"),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: &variant.constants(dome_mesh),
-                    ..Default::default()
-                },
-                targets: &[Some(config.target_format.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
-    })
+    let constants = variant.constants(dome_mesh);
+    let targets = [Some(config.target_format.into())];
+    let flat = Drawing {
+        constants: &constants,
+        depth: config.depth.map(depth_state),
+        multisample: multisample_state(config),
+        ..Drawing::new(["vs_screen", "fs_sky"], own, &targets)
+    };
+    match dome_mesh {
+        false => make(&flat),
+        true => make(&Drawing {
+            entries: ["vs_dome", "fs_sky"],
+            vertices: &vertices,
+            primitive: strip,
+            ..flat
+        }),
+    }
 }
 
 /// What is drawn over the sky and the scene before it. Opacity of the target stays as it is.
@@ -129,50 +182,37 @@ impl Overlay {
 }
 
 /// The pipeline of an overlay; `own` is the layout of its group 1, if it has one.
-pub(crate) fn overlay_pipeline(
-    device: &wgpu::Device,
+pub(crate) fn overlay(
     config: &SkyConfig,
-    module: &wgpu::ShaderModule,
-    layouts: &Layouts,
     own: Option<&wgpu::BindGroupLayout>,
-    overlay: &Overlay,
+    drawn: &Overlay,
+    make: impl FnOnce(&Drawing<'_>) -> wgpu::RenderPipeline,
 ) -> wgpu::RenderPipeline {
-    let layout = layouts.pipeline_layout(device, own);
     let component = |src_factor, dst_factor| wgpu::BlendComponent {
         src_factor,
         dst_factor,
         operation: wgpu::BlendOperation::Add,
     };
     let blend = wgpu::BlendState {
-        color: component(wgpu::BlendFactor::SrcAlpha, overlay.behind),
+        color: component(wgpu::BlendFactor::SrcAlpha, drawn.behind),
         alpha: component(wgpu::BlendFactor::Zero, wgpu::BlendFactor::One),
     };
-    let [vertex, fragment] = overlay.entries;
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(fragment),
-        layout: Some(&layout),
-        vertex: vertex_state(module, vertex, &[]),
+    let targets = [Some(wgpu::ColorTargetState {
+        format: config.target_format,
+        blend: Some(blend),
+        write_mask: wgpu::ColorWrites::ALL,
+    })];
+    make(&Drawing {
         primitive: wgpu::PrimitiveState {
-            topology: overlay.topology,
+            topology: drawn.topology,
             ..Default::default()
         },
-        depth_stencil: config.depth.map(|depth| wgpu::DepthStencilState {
+        depth: config.depth.map(|depth| wgpu::DepthStencilState {
             depth_compare: Some(wgpu::CompareFunction::Always),
             ..depth_state(depth)
         }),
         multisample: multisample_state(config),
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some(fragment),
-            compilation_options: Default::default(),
-            targets: &[Some(wgpu::ColorTargetState {
-                format: config.target_format,
-                blend: Some(blend),
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
-        }),
-        multiview_mask: None,
-        cache: None,
+        ..Drawing::new(drawn.entries, own, &targets)
     })
 }
 

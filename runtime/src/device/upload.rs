@@ -100,48 +100,66 @@ fn format(texture: &Texture) -> wgpu::TextureFormat {
     }
 }
 
-/// Group 0: uniforms, samplers and the textures that every method may read. `sky` is the clear sky of the moment.
-pub(crate) fn shared_group(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    pack: &Pack,
-    layouts: &Layouts,
-    buffer: &wgpu::Buffer,
-    sky: &wgpu::Texture,
-) -> Result<wgpu::BindGroup, SkyError> {
-    let samplers = [wgpu::AddressMode::Repeat, wgpu::AddressMode::ClampToEdge]
-        .map(|mode| sampler(device, mode));
-    let mut views = Vec::new();
-    for (binding, role) in TEXTURES {
-        let texture = upload(device, queue, pack, role)?;
-        views.push((binding, texture.create_view(&Default::default())));
-    }
-    views.push((SKY_BINDING, sky.create_view(&Default::default())));
-    let skybox = upload_skybox(device, queue, pack)?;
-    let cube = skybox.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::Cube),
-        ..Default::default()
-    });
-    views.push((SKYBOX_BINDING, cube));
-    let mut entries = vec![wgpu::BindGroupEntry {
-        binding: 0,
-        resource: buffer.as_entire_binding(),
-    }];
-    for (binding, sampler) in (1..).zip(&samplers) {
-        entries.push(wgpu::BindGroupEntry {
-            binding,
-            resource: wgpu::BindingResource::Sampler(sampler),
+/// The samplers, and the pack's textures that every method may read.
+#[derive(Debug)]
+pub(crate) struct SharedTextures {
+    samplers: [wgpu::Sampler; 2],
+    /// By binding.
+    views: Vec<(u32, wgpu::TextureView)>,
+}
+
+impl SharedTextures {
+    /// Uploads those of a pack.
+    ///
+    /// # Errors
+    /// As [`upload`].
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        pack: &Pack,
+    ) -> Result<SharedTextures, SkyError> {
+        let mut views = Vec::new();
+        for (binding, role) in TEXTURES {
+            let texture = upload(device, queue, pack, role)?;
+            views.push((binding, texture.create_view(&Default::default())));
+        }
+        let skybox = upload_skybox(device, queue, pack)?;
+        let cube = skybox.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::Cube),
+            ..Default::default()
         });
+        views.push((SKYBOX_BINDING, cube));
+        Ok(SharedTextures {
+            samplers: [wgpu::AddressMode::Repeat, wgpu::AddressMode::ClampToEdge]
+                .map(|mode| sampler(device, mode)),
+            views,
+        })
     }
-    entries.extend(views.iter().map(|(binding, view)| wgpu::BindGroupEntry {
-        binding: *binding,
-        resource: wgpu::BindingResource::TextureView(view),
-    }));
-    Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("sky"),
-        layout: &layouts.shared,
-        entries: &entries,
-    }))
+
+    /// Group 0 of a view, with its uniforms and the clear sky of its moment.
+    pub fn group(
+        &self,
+        device: &wgpu::Device,
+        layouts: &Layouts,
+        uniforms: &wgpu::Buffer,
+        sky: &wgpu::Texture,
+    ) -> wgpu::BindGroup {
+        let sky = sky.create_view(&Default::default());
+        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+        let mut entries = vec![
+            entry(0, uniforms.as_entire_binding()),
+            entry(SKY_BINDING, wgpu::BindingResource::TextureView(&sky)),
+        ];
+        let samplers = (1..).zip(&self.samplers);
+        entries.extend(samplers.map(|(at, s)| entry(at, wgpu::BindingResource::Sampler(s))));
+        let views = self.views.iter();
+        entries.extend(views.map(|(at, v)| entry(*at, wgpu::BindingResource::TextureView(v))));
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("sky"),
+            layout: &layouts.shared,
+            entries: &entries,
+        })
+    }
 }
 
 fn sampler(device: &wgpu::Device, mode: wgpu::AddressMode) -> wgpu::Sampler {

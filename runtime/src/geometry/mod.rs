@@ -1,5 +1,6 @@
 //! Where pixels look, where they meet the dome, and what shader parts are made of.
 
+pub mod axes;
 pub mod camera;
 pub mod dome;
 pub mod harmonics;

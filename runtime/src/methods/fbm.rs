@@ -6,7 +6,7 @@ use welkin_pack::Role;
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::fbm::{self, coverage, map, pack};
 use crate::clouds::photo;
-use crate::device::context::Context;
+use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
 use crate::frame::Uniforms;
@@ -36,11 +36,11 @@ impl CloudMethod for Fbm {
     fn map(
         &self,
         context: &Context,
-        module: &wgpu::ShaderModule,
+        shader: &Shader,
         _params: &SkyParams,
     ) -> Option<Box<dyn MapPass>> {
         let octaves = context.own_texture(Method::Fbm)?;
-        let pass = map::Pass::new(&context.device, module, &context.layouts, octaves);
+        let pass = map::Pass::new(context, shader, octaves);
         Some(Box::new(pass))
     }
 

@@ -8,7 +8,7 @@ use welkin_pack::Role;
 use crate::clear_sky::light::Light;
 use crate::clouds::coverage::Distributions;
 use crate::clouds::shared::{self, CloudView};
-use crate::device::context::Context;
+use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
 use crate::frame::Uniforms;
 use crate::geometry::part::Part;
@@ -43,7 +43,7 @@ pub(crate) trait CloudMethod: Sync {
     fn map(
         &self,
         _context: &Context,
-        _module: &wgpu::ShaderModule,
+        _shader: &Shader,
         _params: &SkyParams,
     ) -> Option<Box<dyn MapPass>> {
         None

@@ -6,7 +6,7 @@ use welkin_pack::Role;
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::lit::{self, coverage, light, map, paper, shadow};
 use crate::clouds::{photo, shared};
-use crate::device::context::Context;
+use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
 use crate::frame::Uniforms;
@@ -36,13 +36,13 @@ impl CloudMethod for Lit {
     fn map(
         &self,
         context: &Context,
-        module: &wgpu::ShaderModule,
+        shader: &Shader,
         _params: &SkyParams,
     ) -> Option<Box<dyn MapPass>> {
         let layers = context.own_texture(Method::Lit)?;
         Some(Box::new(Pass {
-            map: map::Pass::new(&context.device, module, &context.layouts, layers),
-            module: module.clone(),
+            map: map::Pass::new(context, shader, layers),
+            shader: shader.clone(),
             shadow: None,
         }))
     }
@@ -99,7 +99,7 @@ impl CloudMethod for Lit {
 #[derive(Debug)]
 struct Pass {
     map: map::Pass,
-    module: wgpu::ShaderModule,
+    shader: Shader,
     /// Made when it is first asked for.
     shadow: Option<shadow::Pass>,
 }
@@ -107,7 +107,7 @@ struct Pass {
 impl MapPass for Pass {
     fn ensure(&mut self, context: &Context, params: &SkyParams) {
         if params.shadow_extent_m > 0.0 {
-            let new = || shadow::Pass::new(&context.device, &self.module, &context.layouts);
+            let new = || shadow::Pass::new(context, &self.shader);
             self.shadow.get_or_insert_with(new);
         }
     }

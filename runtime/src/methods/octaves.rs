@@ -6,7 +6,7 @@ use welkin_pack::Role;
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::octaves::{self, coverage, map};
 use crate::clouds::photo;
-use crate::device::context::Context;
+use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
 use crate::frame::Uniforms;
@@ -32,11 +32,10 @@ impl CloudMethod for Octaves {
     fn map(
         &self,
         context: &Context,
-        module: &wgpu::ShaderModule,
+        shader: &Shader,
         params: &SkyParams,
     ) -> Option<Box<dyn MapPass>> {
-        let (device, layouts) = (&context.device, &context.layouts);
-        let pass = map::Pass::new(device, module, layouts, params.octaves.count);
+        let pass = map::Pass::new(context, shader, params.octaves.count);
         Some(Box::new(pass))
     }
 

@@ -5,7 +5,7 @@ use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::packed::{self, coverage, map, paper};
-use crate::device::context::Context;
+use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
 use crate::frame::Uniforms;
@@ -31,11 +31,10 @@ impl CloudMethod for Packed {
     fn map(
         &self,
         context: &Context,
-        module: &wgpu::ShaderModule,
+        shader: &Shader,
         _params: &SkyParams,
     ) -> Option<Box<dyn MapPass>> {
-        let (device, layouts) = (&context.device, &context.layouts);
-        let pass = map::Pass::new(device, module, layouts, context.clouds_texels);
+        let pass = map::Pass::new(context, shader, context.clouds_texels);
         Some(Box::new(pass))
     }
 

@@ -9,6 +9,9 @@
 //! Some tens of microseconds of one core; no device is asked. Clouds count by their mean opacity and colour, not by where they are at
 //! the moment: light does not flicker as they pass the sun. Weather, flashes, a skybox, stars and the Milky Way are left out. See docs/light.md.
 
+//!
+//! [`WGSL`] is a struct of 240 bytes and three functions for the shaders of a scene; [`SkyLight::uniform`] is its bytes.
+
 use glam::{Vec2, Vec3, Vec3Swizzles};
 use welkin_pack::air::AUREOLE_LOBES;
 
@@ -23,6 +26,9 @@ use crate::pack_data::PackData;
 use crate::params::SkyParams;
 use crate::sky::air::Air;
 
+/// WGSL of `sky_light_ambient(light, normal)`, `sky_light_direct` and `sky_light_clear`, for the application's shaders.
+pub const WGSL: &str = include_str!("light_on.wgsl");
+
 /// Light from one direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Luminary {
@@ -30,6 +36,8 @@ pub struct Luminary {
     pub direction: Vec3,
     /// Irradiance of a plane that faces it, linear BT.709, in units of radiance times steradian; 0 where it is not up.
     pub irradiance: Vec3,
+    /// The same without clouds, for a scene that has the shadow of each of them ([`Sky::shadow`](crate::Sky::shadow)).
+    pub clear_irradiance: Vec3,
 }
 
 /// The light that a sky gives to a scene, linear BT.709. A white surface under an irradiance of `E` has a radiance of `E / pi`.
@@ -54,6 +62,21 @@ pub struct SkyLight {
 }
 
 impl SkyLight {
+    /// The struct `SkyLight` of [`WGSL`].
+    pub fn uniform(&self) -> [f32; 60] {
+        let [sun, moon] = [self.sun, self.moon];
+        let ambient = self.ambient.iter().zip(FACTORS);
+        let rows = [sun, moon]
+            .into_iter()
+            .flat_map(|from| [from.direction, from.irradiance, from.clear_irradiance])
+            .chain(ambient.map(|(coefficient, factor)| *coefficient * factor as f32));
+        let mut uniform = [0.0; 60];
+        for (row, vector) in uniform.chunks_exact_mut(4).zip(rows) {
+            row[..3].copy_from_slice(&vector.to_array());
+        }
+        uniform
+    }
+
     /// The irradiance that a plane of this unit normal has from sky, clouds and ground: sun and moon are to be added.
     pub fn ambient_irradiance(&self, normal: Vec3) -> Vec3 {
         let terms = basis(normal.as_dvec3().to_array());
@@ -246,14 +269,15 @@ impl PackData {
                 sum.add(seen * solid_angle, sine, direction.xz().dot(azimuth));
             }
         }
-        let luminary = |irradiance| Luminary {
+        let clear_irradiance = light.ground_sunlight * std::f32::consts::PI;
+        let direct = Luminary {
             direction: sun,
-            irradiance,
+            irradiance: clear_irradiance * open,
+            clear_irradiance,
         };
-        let direct = luminary(light.ground_sunlight * (std::f32::consts::PI * open));
         let dark = Luminary {
             direction: if light.is_moon { light.sun } else { light.moon },
-            irradiance: Vec3::ZERO,
+            ..Luminary::default()
         };
         let [sun, moon] = match light.is_moon {
             true => [dark, direct],

@@ -1,6 +1,6 @@
 //! What one method needs on a device: its pipelines, its off-screen pass, and what is drawn over its sky.
 
-use crate::device::context::{Context, Dome};
+use crate::device::context::{Context, Dome, Shader};
 use crate::device::pipeline::{Overlay, Variant};
 use crate::methods::interface::MapPass;
 use crate::params::{Method, Shading, SkyModel, SkyParams};
@@ -27,21 +27,21 @@ impl MethodPipelines {
     pub fn new(context: &Context, params: &SkyParams) -> MethodPipelines {
         let (method, sky, shading) = (params.method, params.sky, params.shading);
         let own = method.clouds().own_layout(&context.layouts);
-        let module = context.module(Dome {
+        let shader = Shader::new(Dome {
             method,
             shading,
             sky,
             weather: false,
         });
-        let flare = || context.overlay(&module, own, &Overlay::FLARE);
+        let flare = || context.overlay(&shader, own, &Overlay::FLARE);
         let mut models = [const { [const { None }; 2] }; SkyModel::ALL.len()];
-        models[sky as usize][0] = Some(context.pipelines(&module, own, false));
+        models[sky as usize][0] = Some(context.pipelines(&shader, own, false));
         MethodPipelines {
             method,
             shading,
             pipelines: models,
             flare: context.blends.then(flare),
-            map: method.clouds().map(context, &module, params),
+            map: method.clouds().map(context, &shader, params),
             #[cfg(feature = "weather")]
             weather: Overlays::default(),
         }
@@ -65,7 +65,7 @@ impl MethodPipelines {
         };
         self.pipelines[sky as usize][usize::from(weather)].get_or_insert_with(|| {
             let own = dome.method.clouds().own_layout(&context.layouts);
-            context.pipelines(&context.module(dome), own, weather)
+            context.pipelines(&Shader::new(dome), own, weather)
         });
     }
 

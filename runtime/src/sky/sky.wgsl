@@ -45,7 +45,7 @@ fn fs_sky(in: Varyings) -> @location(0) vec4f {
     }
     var radiance = clouds.rgb;
     if !ASK_OPAQUE || clouds.a < 1.0 {
-        radiance = mix(behind_clouds(direction, in.position.xy, 1.0 - clouds.a), clouds.rgb, clouds.a);
+        radiance = mix(behind_clouds(direction, select(in.pixel, in.position.xy, DOME_MESH), 1.0 - clouds.a), clouds.rgb, clouds.a);
     }
     radiance = weather(radiance, direction, clouds);
     return finish(radiance, in.position.xy);

@@ -10,51 +10,52 @@ use crate::device::context::Context;
 use crate::error::{SkyError, texture};
 use crate::params::{Method, SkyModel, SkyParams};
 
-/// The clouds in space of a sky.
+/// What a pack has of clouds in space.
 #[derive(Debug)]
-pub(crate) struct SpriteLayer {
+pub(crate) struct Stock {
     field: Option<Field>,
     outlines: Vec<Outline>,
+}
+
+impl Stock {
+    /// Of a pack.
+    ///
+    /// # Errors
+    /// [`SkyError::MissingTexture`].
+    pub fn new(pack: &Pack) -> Result<Stock, SkyError> {
+        Ok(Stock {
+            field: pack.field().cloned(),
+            outlines: outlines(texture(pack, Role::Sprites)?),
+        })
+    }
+
+    /// Whether it has any.
+    pub fn has_field(&self) -> bool {
+        self.field.is_some()
+    }
+}
+
+/// The clouds in space of a view; of a pack without a field it never shows any.
+#[derive(Debug, Default)]
+pub(crate) struct SpriteLayer {
     pass: Option<Box<Pass>>,
     /// Whether the prepared frame shows them.
     is_shown: bool,
 }
 
 impl SpriteLayer {
-    /// Of a pack; without a field it never shows anything.
-    ///
-    /// # Errors
-    /// [`SkyError::MissingTexture`].
-    pub fn new(pack: &Pack) -> Result<SpriteLayer, SkyError> {
-        Ok(SpriteLayer {
-            field: pack.field().cloned(),
-            outlines: outlines(texture(pack, Role::Sprites)?),
-            pass: None,
-            is_shown: false,
-        })
-    }
-
-    /// Whether the pack has clouds in space.
-    pub fn has_field(&self) -> bool {
-        self.field.is_some()
-    }
-
     /// Makes what draws them, if the parameters want them and pack and target allow them.
-    pub fn ensure(&mut self, context: &Context, params: &SkyParams) {
-        let (Some(field), Some(atlas)) = (&self.field, context.own_texture(Method::Sprites)) else {
+    pub fn ensure(&mut self, context: &Context, stock: &Stock, params: &SkyParams) {
+        let (Some(field), Some(atlas)) = (&stock.field, context.own_texture(Method::Sprites))
+        else {
             return;
         };
         if params.method != Method::Sprites || !context.blends {
             return;
         }
         let new = || {
-            Pass::new(
-                context,
-                atlas,
-                field,
-                &self.outlines,
-                params.sprites.distance_m,
-            )
+            let distance_m = params.sprites.distance_m;
+            Pass::new(context, atlas, field, &stock.outlines, distance_m)
         };
         let pass = self.pass.get_or_insert_with(|| new().into());
         pass.load(context, params.sky);
@@ -63,13 +64,13 @@ impl SpriteLayer {
     /// Computes a frame and records the pictures of the ring that it draws. Parameters are in range.
     pub fn record(
         &mut self,
-        context: &Context,
+        (context, stock): (&Context, &Stock),
         queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
         shared: &wgpu::BindGroup,
         frame: &Frame<'_>,
     ) {
-        self.ensure(context, frame.params);
+        self.ensure(context, stock, frame.params);
         let wanted = self
             .pass
             .as_mut()

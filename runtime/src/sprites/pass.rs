@@ -19,7 +19,7 @@ use super::pipelines::{GroupLayouts, Pipelines, STRIDE};
 use super::ring::{Ring, Step};
 use super::scene::{AMOUNTS_SIDE, Draw, Scene, planes};
 use super::station::{self, RingUniforms, SpriteView};
-use crate::device::context::{Context, Dome};
+use crate::device::context::{Context, Dome, Shader};
 use crate::params::{Method, Shading, SkyModel};
 
 /// Views of a frame: the screen's and the ring's pictures'.
@@ -131,8 +131,7 @@ impl Pass {
                 sky,
                 weather: false,
             };
-            let module = context.module(dome);
-            Pipelines::new(context, &module, groups)
+            Pipelines::new(context, &Shader::new(dome), groups)
         });
     }
 

@@ -8,10 +8,10 @@ use super::outline::Outline;
 use super::station::{self, RingUniforms, SpriteView};
 use super::{formation, instances, locks};
 use crate::device::config::Output;
-use crate::device::context::Context;
-use crate::device::layouts::{entry, texture, vertex_state};
+use crate::device::context::{Context, Shader};
+use crate::device::layouts::{entry, texture};
 use crate::device::map::target;
-use crate::device::pipeline::{depth_state, multisample_state};
+use crate::device::pipeline::{Drawing, depth_state, multisample_state};
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
 
@@ -185,84 +185,54 @@ pub(crate) fn pictures(device: &wgpu::Device, output: Output) -> wgpu::Texture {
 }
 
 impl Pipelines {
-    /// Makes them for a composed shader.
-    pub fn new(context: &Context, module: &wgpu::ShaderModule, groups: &GroupLayouts) -> Pipelines {
-        let device = &context.device;
-        let layout =
-            |own: &wgpu::BindGroupLayout| context.layouts.pipeline_layout(device, Some(own));
-        let (sprites, ring) = (layout(&groups.sprites), layout(&groups.ring));
+    /// Makes them of a shader.
+    pub fn new(context: &Context, shader: &Shader, groups: &GroupLayouts) -> Pipelines {
+        let (sprites, ring) = (&groups.sprites, &groups.ring);
         let screen = context.config.target_format;
-        let make = |draw: Draw<'_>| pipeline(context, module, draw);
+        let picture = picture_format(context.build.output);
+        let list = wgpu::PrimitiveTopology::TriangleList;
+        let strip = wgpu::PrimitiveTopology::TriangleStrip;
+        let on_screen = |entries, own, topology| {
+            let targets = blended(screen, KEEP);
+            let drawing = Drawing::new(entries, Some(own), &targets);
+            context.pipeline(
+                shader,
+                &Drawing {
+                    primitive: primitive(topology),
+                    depth: context.config.depth.map(depth_state),
+                    multisample: multisample_state(&context.config),
+                    ..drawing
+                },
+            )
+        };
+        let pictured = blended(picture, OVER);
+        let into_picture = Drawing {
+            primitive: primitive(list),
+            ..Drawing::new(["vs_ring_sprite", "fs_sprite"], Some(sprites), &pictured)
+        };
         Pipelines {
-            sprites: make(Draw {
-                layout: &sprites,
-                entries: ["vs_sprite", "fs_sprite"],
-                format: screen,
-                on_screen: true,
-                topology: wgpu::PrimitiveTopology::TriangleList,
-            }),
-            picture: make(Draw {
-                layout: &sprites,
-                entries: ["vs_ring_sprite", "fs_sprite"],
-                format: picture_format(context.build.output),
-                on_screen: false,
-                topology: wgpu::PrimitiveTopology::TriangleList,
-            }),
-            ring: make(Draw {
-                layout: &ring,
-                entries: ["vs_ring", "fs_ring"],
-                format: screen,
-                on_screen: true,
-                topology: wgpu::PrimitiveTopology::TriangleStrip,
-            }),
+            sprites: on_screen(["vs_sprite", "fs_sprite"], sprites, list),
+            picture: context.pipeline(shader, &into_picture),
+            ring: on_screen(["vs_ring", "fs_ring"], ring, strip),
         }
     }
 }
 
-/// What a pipeline draws, onto the target or off screen.
-struct Draw<'a> {
-    layout: &'a wgpu::PipelineLayout,
-    entries: [&'static str; 2],
-    format: wgpu::TextureFormat,
-    on_screen: bool,
-    topology: wgpu::PrimitiveTopology,
+fn primitive(topology: wgpu::PrimitiveTopology) -> wgpu::PrimitiveState {
+    wgpu::PrimitiveState {
+        topology,
+        ..Default::default()
+    }
 }
 
-fn pipeline(
-    context: &Context,
-    module: &wgpu::ShaderModule,
-    draw: Draw<'_>,
-) -> wgpu::RenderPipeline {
-    let config = &context.config;
-    let [vertex, fragment] = draw.entries;
-    let alpha = if draw.on_screen { KEEP } else { OVER };
-    context
-        .device
-        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(fragment),
-            layout: Some(draw.layout),
-            vertex: vertex_state(module, vertex, &[]),
-            primitive: wgpu::PrimitiveState {
-                topology: draw.topology,
-                ..Default::default()
-            },
-            depth_stencil: config.depth.filter(|_| draw.on_screen).map(depth_state),
-            multisample: if draw.on_screen {
-                multisample_state(config)
-            } else {
-                wgpu::MultisampleState::default()
-            },
-            fragment: Some(wgpu::FragmentState {
-                module,
-                entry_point: Some(fragment),
-                compilation_options: Default::default(),
-                targets: &[Some(wgpu::ColorTargetState {
-                    format: draw.format,
-                    blend: Some(wgpu::BlendState { color: OVER, alpha }),
-                    write_mask: wgpu::ColorWrites::ALL,
-                })],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
+/// A target that sprites are laid over; `alpha` is what becomes of its opacity.
+fn blended(
+    format: wgpu::TextureFormat,
+    alpha: wgpu::BlendComponent,
+) -> [Option<wgpu::ColorTargetState>; 1] {
+    [Some(wgpu::ColorTargetState {
+        format,
+        blend: Some(wgpu::BlendState { color: OVER, alpha }),
+        write_mask: wgpu::ColorWrites::ALL,
+    })]
 }

@@ -310,7 +310,8 @@ fn fs_sprite(in: SpriteVaryings) -> @location(0) vec4f {
     let sun = dot(vec4f(greys, 1.0 - texel.g), in.sun);
     let sky = dot(greys, in.sky);
     let colour = in.light.rgb + sun * in.sunlit + sky * in.skylit;
-    return vec4f(max(colour, vec3f(0.0)), 1.0) * (texel.g * in.light.w);
+    // Software rasterisers give what is no number at a pixel of a triangle seen edge on; `max` and `saturate` do not hand it on.
+    return vec4f(max(colour, vec3f(0.0)), 1.0) * (texel.g * saturate(in.light.w));
 }
 
 // The dome behind the sprites, if no other method's is: clear but for the thin upper layer of the packed method.

@@ -2,15 +2,15 @@
 
 use super::rain::{RainUniforms, vertices};
 use super::rays::{self, RayUniforms};
-use crate::device::context::{Context, Dome};
+use crate::device::context::{Context, Dome, Shader};
 use crate::device::pipeline::Overlay;
 use crate::params::{Method, Shading, SkyModel};
 
 /// Rays and rain over the sky of a method.
 #[derive(Debug, Default)]
 pub(crate) struct Overlays {
-    /// The shader of both.
-    module: Option<wgpu::ShaderModule>,
+    /// Of both.
+    shader: Option<Shader>,
     rays: Option<rays::Pass>,
     rain: Option<wgpu::RenderPipeline>,
 }
@@ -52,17 +52,13 @@ impl Overlays {
             sky: SkyModel::Table,
             weather: true,
         };
-        let module = self.module.get_or_insert_with(|| context.module(dome));
+        let shader = self.shader.get_or_insert_with(|| Shader::new(dome));
         if shown.rain > 0 {
-            let new = || context.overlay(module, None, &Overlay::RAIN);
+            let new = || context.overlay(shader, None, &Overlay::RAIN);
             self.rain.get_or_insert_with(new);
         }
         if shown.rays {
-            let (device, layouts) = (&context.device, &context.layouts);
-            let new = || {
-                let overlay = context.overlay(module, Some(&layouts.texture), &Overlay::RAYS);
-                rays::Pass::new(device, module, layouts, own.map(|own| own.0), overlay)
-            };
+            let new = || rays::Pass::new(context, shader, own.map(|own| own.0));
             let pass = self.rays.get_or_insert_with(new);
             pass.record(encoder, shared, own.map(|own| own.1));
         }

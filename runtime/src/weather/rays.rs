@@ -21,8 +21,9 @@ use glam::Vec3;
 
 use crate::clear_sky::light::Light;
 use crate::clouds::shared::CloudUniforms;
-use crate::device::layouts::Layouts;
+use crate::device::context::{Context, Shader};
 use crate::device::map;
+use crate::device::pipeline::Overlay;
 use crate::geometry::camera::Rays;
 use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
@@ -176,19 +177,14 @@ struct Step {
 
 impl Pass {
     /// `own` is the layout of group 1 of the dome.
-    pub fn new(
-        device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        layouts: &Layouts,
-        own: Option<&wgpu::BindGroupLayout>,
-        overlay: wgpu::RenderPipeline,
-    ) -> Pass {
+    pub fn new(context: &Context, shader: &Shader, own: Option<&wgpu::BindGroupLayout>) -> Pass {
+        let (device, layouts) = (&context.device, &context.layouts);
         let step = |entry: &str, own: Option<&wgpu::BindGroupLayout>| {
             let texture = map::target(device, entry, FORMAT, [SIZE[0], SIZE[1], 1], 1);
             let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
             Step {
                 group: layouts.texture_group(device, &view),
-                pipeline: layouts.off_screen(device, module, entry, own, FORMAT),
+                pipeline: context.off_screen(shader, entry, own, FORMAT),
                 view,
                 texture,
             }
@@ -199,7 +195,7 @@ impl Pass {
                 step("fs_rays_sum", Some(&layouts.texture)),
                 step("fs_rays_streaks", Some(&layouts.texture)),
             ],
-            overlay,
+            overlay: context.overlay(shader, Some(&layouts.texture), &Overlay::RAYS),
         }
     }
 

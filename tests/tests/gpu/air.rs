@@ -5,6 +5,8 @@ use welkin_runtime::internals::pack_data::PackData;
 use welkin_runtime::{Camera, SkyParams, air};
 use welkin_tests::{gpu, pack};
 
+use super::application;
+
 /// Times and hazes.
 const SKIES: [(f32, f32); 4] = [(0.5, 0.0), (0.7, 0.5), (0.742, 0.0), (0.95, 1.0)];
 
@@ -37,55 +39,15 @@ fn ways() -> Vec<[Vec3; 2]> {
 
 /// `air_between` on the device.
 fn drawn(air: &air::Air, radiance: Vec3, ways: &[[Vec3; 2]]) -> Vec<Vec3> {
-    let gpu::Gpu { device, queue, .. } = gpu::gpu();
-    let vector = |v: Vec3| format!("vec3f({:?}, {:?}, {:?})", v.x, v.y, v.z);
-    let list = |end: usize| {
-        let places: Vec<String> = ways.iter().map(|way| vector(way[end])).collect();
-        format!("array<vec3f, {}>({})", ways.len(), places.join(", "))
-    };
-    let text = format!(
+    let from = |end: usize| ways.iter().map(|way| way[end]).collect::<Vec<_>>();
+    let function = format!(
         "{}
         @group(0) @binding(0) var<uniform> air: Air;
-        @vertex fn vs(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {{
-            return vec4f(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.0, 1.0);
-        }}
-        @fragment fn fs(@builtin(position) position: vec4f) -> @location(0) vec4f {{
-            var starts = {};
-            var ends = {};
-            let i = u32(position.x);
-            return vec4f(air_between(air, {}, starts[i], ends[i]), 1.0);
-        }}",
+        fn asked(a: vec3f, b: vec3f) -> vec3f {{ return air_between(air, {}, a, b); }}",
         air::WGSL,
-        list(0),
-        list(1),
-        vector(radiance),
+        application::vector(radiance),
     );
-    let format = wgpu::TextureFormat::Rgba32Float;
-    let pipeline = gpu::pipeline(&text, ["vs", "fs"], format);
-    let uniform = air.uniform();
-    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("air"),
-        size: size_of_val(&uniform) as u64,
-        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    });
-    let bytes: Vec<u8> = uniform.iter().flat_map(|f| f.to_le_bytes()).collect();
-    queue.write_buffer(&buffer, 0, &bytes);
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("air"),
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &[wgpu::BindGroupEntry {
-            binding: 0,
-            resource: buffer.as_entire_binding(),
-        }],
-    });
-    let target = gpu::target(format, [ways.len() as u32, 1], 1);
-    gpu::pass(&target, None, None, |pass| {
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.draw(0..3, 0..1);
-    });
-    gpu::rgb(&gpu::read(&target))
+    application::asked(&function, &air.uniform(), [&from(0), &from(1)])
 }
 
 #[test]

@@ -3,11 +3,13 @@
 //! A program beside `it`, which runs where there is no Vulkan driver.
 
 mod air;
+mod application;
 mod backends;
 mod cover;
 mod daylight;
 mod depth;
 mod dome;
+mod examples;
 mod flares;
 mod formation;
 mod gradient;
@@ -21,6 +23,7 @@ mod pictures;
 mod placed_stars;
 mod purity;
 mod robust;
+mod scene_light;
 mod shadows;
 mod sky_light;
 mod skybox;
@@ -29,4 +32,5 @@ mod stars;
 mod sun;
 mod tonemap;
 mod twins;
+mod views;
 mod weather;

@@ -147,6 +147,27 @@ fn at_the_corners_of_camera_and_weather() {
     assert_light(pack::default_pack(), &cases);
 }
 
+/// A sprite seen edge on: of a sliver of a triangle llvmpipe interpolates what is no number.
+#[test]
+fn at_a_sprite_seen_edge_on() {
+    let size = [160, 90];
+    let camera = Camera::looking(
+        100_f32.to_radians(),
+        17_f32.to_radians(),
+        60_f32.to_radians(),
+        size,
+    );
+    let params = SkyParams {
+        method: Method::Sprites,
+        time: 0.45,
+        cover: 0.6,
+        ..SkyParams::default()
+    };
+    let moments = (0..8).map(|step| 17.0 + f64::from(step) / 30.0);
+    let cases: Vec<_> = moments.map(|seconds| (params, camera, seconds)).collect();
+    assert_light(pack::default_pack(), &cases);
+}
+
 /// A ray along the fall of the rain never meets the planes that its streaks lie in.
 #[test]
 fn straight_along_the_fall_of_rain() {

@@ -2,6 +2,7 @@
 
 mod floors;
 mod golden;
+mod links;
 mod perez;
 mod sky_picture;
 mod tonemap;

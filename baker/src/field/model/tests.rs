@@ -77,7 +77,7 @@ fn a_box_is_the_bounds_after_the_transforms_of_all_nodes_above() {
 
 #[test]
 fn the_example_models_are_boxes() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets-src/models/");
+    let folder = concat!(env!("WELKIN_ASSETS"), "/models/");
     for (file, count, sprites) in [("heap.gltf", 6, 68), ("tower.glb", 9, 166)] {
         let bytes = std::fs::read(format!("{folder}{file}")).unwrap();
         let boxes = boxes(&bytes, file).unwrap();
@@ -199,10 +199,7 @@ fn files_that_are_no_models_are_refused() {
             "{error}"
         );
     }
-    let folder = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../assets-src/models/tower.glb"
-    );
+    let folder = concat!(env!("WELKIN_ASSETS"), "/models/tower.glb");
     let bytes = std::fs::read(folder).unwrap();
     for length in 0..bytes.len() {
         assert!(boxes(&bytes[..length], "m.glb").is_err(), "{length}");

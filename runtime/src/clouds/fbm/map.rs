@@ -22,7 +22,7 @@ use glam::Vec2;
 use welkin_pack::Texture;
 
 use crate::clouds::fbm::pack;
-use crate::device::layouts::Layouts;
+use crate::device::context::{Context, Shader};
 use crate::device::map::Plane;
 use crate::geometry::part::{Part, Value};
 
@@ -136,16 +136,11 @@ pub(crate) struct Pass {
 
 impl Pass {
     /// `octaves` is the pack's texture.
-    pub fn new(
-        device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        layouts: &Layouts,
-        octaves: &wgpu::Texture,
-    ) -> Pass {
-        let packing = pack::Pass::new(device, module, layouts, octaves);
+    pub fn new(context: &Context, shader: &Shader, octaves: &wgpu::Texture) -> Pass {
+        let packing = pack::Pass::new(context, shader, octaves);
         let drawn = ("fs_fbm_map", SIDE);
         Pass {
-            map: Plane::new(device, module, layouts, drawn, packing.texture()),
+            map: Plane::new(context, shader, drawn, packing.texture()),
             packing,
         }
     }

@@ -18,7 +18,7 @@
 use glam::{DVec2, Vec2, Vec3};
 
 use crate::clouds::march::SunCell;
-use crate::device::layouts::Layouts;
+use crate::device::context::{Context, Shader};
 use crate::device::map;
 use crate::geometry::part::Part;
 
@@ -63,12 +63,8 @@ pub(crate) struct Pass {
 
 impl Pass {
     /// `octaves` is the pack's texture.
-    pub fn new(
-        device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        layouts: &Layouts,
-        octaves: &wgpu::Texture,
-    ) -> Pass {
+    pub fn new(context: &Context, shader: &Shader, octaves: &wgpu::Texture) -> Pass {
+        let (device, layouts) = (&context.device, &context.layouts);
         let format = wgpu::TextureFormat::Rgba8Unorm;
         let count = octaves.depth_or_array_layers();
         let size = [octaves.width(), octaves.height(), count];
@@ -84,7 +80,7 @@ impl Pass {
         Pass {
             layers: (0..count).map(layer).collect(),
             source: layouts.layers_group(device, octaves),
-            pipeline: layouts.off_screen(device, module, "fs_fbm_pack", &layouts.layers, format),
+            pipeline: context.off_screen(shader, "fs_fbm_pack", &layouts.layers, format),
             packed_for: None,
             texture,
         }

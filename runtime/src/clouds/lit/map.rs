@@ -23,7 +23,7 @@ use glam::{Vec2, Vec3};
 use welkin_pack::{LayerKind, Texture};
 
 use super::look::look;
-use crate::device::layouts::Layouts;
+use crate::device::context::{Context, Shader};
 use crate::device::map::{FORMAT, Map};
 use crate::geometry::part::{Part, Value};
 use crate::params::{LAYERS_AN_ITERATION, MAX_LAYERS};
@@ -116,12 +116,8 @@ pub(crate) struct Pass {
 
 impl Pass {
     /// `layers` is the pack's texture.
-    pub fn new(
-        device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        layouts: &Layouts,
-        layers: &wgpu::Texture,
-    ) -> Pass {
+    pub fn new(context: &Context, shader: &Shader, layers: &wgpu::Texture) -> Pass {
+        let (device, layouts) = (&context.device, &context.layouts);
         let pipelines = |entry: &str| {
             let iterations = 0..MAX_LAYERS / LAYERS_AN_ITERATION;
             let pipeline = |iteration: usize| {
@@ -129,7 +125,7 @@ impl Pass {
                 let targets = &[FORMAT; LAYERS_AN_ITERATION];
                 let constants = &[("FIRST_LAYER", first)];
                 let own = &layouts.layers;
-                layouts.off_screen_with(device, module, entry, own, targets, constants)
+                context.off_screen_with(shader, entry, own, targets, constants)
             };
             iterations.map(pipeline).collect()
         };

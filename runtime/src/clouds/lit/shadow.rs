@@ -48,7 +48,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3Swizzles};
 
 use crate::clouds::lit::{self, LitUniforms, map};
 use crate::clouds::shared::CloudView;
-use crate::device::layouts::Layouts;
+use crate::device::context::{Context, Shader};
 use crate::device::map::{draw, target};
 use crate::geometry::part::Part;
 use crate::geometry::uniforms::uniforms;
@@ -176,12 +176,13 @@ pub(crate) struct Pass {
 }
 
 impl Pass {
-    pub fn new(device: &wgpu::Device, module: &wgpu::ShaderModule, layouts: &Layouts) -> Pass {
+    pub fn new(context: &Context, shader: &Shader) -> Pass {
+        let (device, layouts) = (&context.device, &context.layouts);
         let format = wgpu::TextureFormat::R8Unorm;
         let texture = target(device, "cloud shadows", format, [SIDE, SIDE, 1], 1);
         Pass {
             view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
-            pipeline: layouts.off_screen(device, module, "fs_shadow", &layouts.lit, format),
+            pipeline: context.off_screen(shader, "fs_shadow", &layouts.lit, format),
             texture,
         }
     }

@@ -24,6 +24,7 @@
 
 use half::f16;
 
+use crate::device::context::{Context, Shader};
 use crate::device::layouts::{Layouts, array_layers};
 use crate::device::map::Plane;
 use crate::geometry::math::mix;
@@ -184,16 +185,11 @@ pub(crate) struct Pass {
 }
 
 impl Pass {
-    pub fn new(
-        device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        layouts: &Layouts,
-        count: u32,
-    ) -> Pass {
-        let states = states_texture(device, count);
+    pub fn new(context: &Context, shader: &Shader, count: u32) -> Pass {
+        let states = states_texture(&context.device, count);
         let drawn = ("fs_octaves_map", side(count));
         Pass {
-            map: Plane::new(device, module, layouts, drawn, &states),
+            map: Plane::new(context, shader, drawn, &states),
             states,
         }
     }

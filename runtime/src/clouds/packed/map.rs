@@ -12,7 +12,7 @@
 use glam::{DVec2, Vec2, Vec3};
 
 use crate::clouds::march::SunCell;
-use crate::device::layouts::Layouts;
+use crate::device::context::{Context, Shader};
 use crate::device::map::{FORMAT, LEAST_SIDE, Map};
 use crate::geometry::part::{Part, Value};
 
@@ -64,18 +64,14 @@ pub(crate) struct Pass {
 
 impl Pass {
     /// For a photo of this many texels a side.
-    pub fn new(
-        device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        layouts: &Layouts,
-        texels: u32,
-    ) -> Pass {
+    pub fn new(context: &Context, shader: &Shader, texels: u32) -> Pass {
+        let (device, layouts) = (&context.device, &context.layouts);
         let side = texels.clamp(LEAST_SIDE, MOST_SIDE);
-        let averaging = layouts.off_screen(device, module, "fs_level", &layouts.texture, FORMAT);
+        let averaging = context.off_screen(shader, "fs_level", &layouts.texture, FORMAT);
         let map = Map::new(device, layouts, vec![averaging], [side, 1]);
         let view = map.texture.create_view(&Default::default());
         Pass {
-            pipeline: layouts.off_screen(device, module, "fs_packed_map", None, FORMAT),
+            pipeline: context.off_screen(shader, "fs_packed_map", None, FORMAT),
             group: layouts.texture_group(device, &view),
             map,
             drawn_for: None,

@@ -1,0 +1,123 @@
+//! What all views of a sky share: the device, the pack on it and in memory, and the pipelines that were made.
+
+use welkin_pack::{Pack, Role};
+use wgpu::util::DeviceExt;
+
+use crate::device::config::{SkyConfig, output, step};
+use crate::device::context::Context;
+use crate::device::layouts::Layouts;
+use crate::device::shader::Build;
+use crate::device::upload::{SharedTextures, upload};
+use crate::error::SkyError;
+use crate::frame::Uniforms;
+use crate::geometry::dome;
+use crate::pack_data::PackData;
+use crate::params::Method;
+use crate::parts;
+#[cfg(feature = "sprites")]
+use crate::sprites::layer::Stock;
+
+/// What all views of a sky share.
+#[derive(Debug)]
+pub(super) struct Common {
+    pub context: Context,
+    pub textures: SharedTextures,
+    /// Bytes that each method's own textures of the pack have, at its place in [`Method::ALL`].
+    pub pack_bytes: [u64; Method::ALL.len()],
+    pub pack_data: PackData,
+    /// From one level of the target to the next.
+    pub step: f32,
+    pub dome: Option<DomeBuffers>,
+    #[cfg(feature = "sprites")]
+    pub stock: Stock,
+}
+
+/// The dome's mesh on the device.
+#[derive(Clone, Debug)]
+pub(super) struct DomeBuffers {
+    pub vertices: wgpu::Buffer,
+    pub indices: wgpu::Buffer,
+    pub count: u32,
+}
+
+impl Common {
+    /// Uploads a pack; without a step of the dome's mesh the sky is a triangle over the screen.
+    ///
+    /// # Errors
+    /// See [`SkyError`]; the device is not touched before the configuration has been looked at.
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        config: SkyConfig,
+        pack: &Pack,
+        dome_step_deg: Option<f32>,
+    ) -> Result<Common, SkyError> {
+        let pack_data = PackData::new(pack)?;
+        let features = device.features();
+        let build = Build {
+            output: output(&config, features)?,
+            reversed_depth: config.depth.is_some_and(|d| d.reversed),
+            skybox: pack_data.skybox.is_some(),
+        };
+        let bytes = |role: Role| {
+            let levels = pack.texture(role).map(|texture| &texture.levels);
+            levels.map_or(0, |levels| {
+                levels.iter().map(|level| level.len() as u64).sum()
+            })
+        };
+        let mut own = [const { None }; Method::ALL.len()];
+        for method in Method::ALL {
+            let clouds = method.clouds();
+            if clouds.uploads() {
+                own[method as usize] = Some(upload(device, queue, pack, clouds.role())?);
+            }
+        }
+        let usable = config.target_format.guaranteed_format_features(features);
+        let context = Context {
+            own,
+            clouds_texels: pack_data.clouds_texels,
+            mesh: dome_step_deg.is_some(),
+            blends: usable
+                .flags
+                .contains(wgpu::TextureFormatFeatureFlags::BLENDABLE),
+            device: device.clone(),
+            config,
+            build,
+            compose: parts::text,
+            layouts: Layouts::new(device, size_of::<Uniforms>() as u64),
+            made: Default::default(),
+        };
+        Ok(Common {
+            textures: SharedTextures::new(device, queue, pack)?,
+            pack_bytes: Method::ALL.map(|method| bytes(method.clouds().role())),
+            step: step(config.target_format),
+            dome: dome_step_deg.map(|step| dome_buffers(device, step)),
+            #[cfg(feature = "sprites")]
+            stock: Stock::new(pack)?,
+            context,
+            pack_data,
+        })
+    }
+}
+
+fn dome_buffers(device: &wgpu::Device, step_deg: f32) -> DomeBuffers {
+    let mesh = dome::mesh(step_deg);
+    let buffer = |contents: &[u8], usage: wgpu::BufferUsages| {
+        device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("dome"),
+            contents,
+            usage,
+        })
+    };
+    DomeBuffers {
+        vertices: buffer(
+            bytemuck::cast_slice(&mesh.vertices),
+            wgpu::BufferUsages::VERTEX,
+        ),
+        indices: buffer(
+            bytemuck::cast_slice(&mesh.indices),
+            wgpu::BufferUsages::INDEX,
+        ),
+        count: mesh.indices.len() as u32,
+    }
+}
