@@ -28,8 +28,23 @@ function seedOf(seed) {
   return BigInt(seed);
 }
 
+/** The worker. No browser starts one of another origin, such as that of a CDN; one of this page's own may import it. */
+function open() {
+  try {
+    // Written out, as bundlers look for it.
+    return new Worker(new URL('./baker-worker.js', import.meta.url), { type: 'module', name: 'welkin baker' });
+  } catch (error) {
+    if (error.name !== 'SecurityError') throw error;
+  }
+  const module = new URL('./baker-worker.js', import.meta.url).href;
+  const address = URL.createObjectURL(new Blob([`import ${JSON.stringify(module)};`], { type: 'text/javascript' }));
+  // It is read when the worker starts, a moment after this.
+  setTimeout(() => URL.revokeObjectURL(address), 60_000);
+  return new Worker(address, { type: 'module', name: 'welkin baker' });
+}
+
 function work(order, onprogress, signal) {
-  const worker = new Worker(new URL('./baker-worker.js', import.meta.url), { type: 'module', name: 'welkin baker' });
+  const worker = open();
   const aborted = () => finish(() => reject(signal.reason));
   const finish = (settle) => {
     worker.terminate();

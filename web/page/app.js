@@ -54,8 +54,8 @@ const stage = createStage(view, createSky, {
     showBackend(sky.info);
   },
   lost: (why) => tell('device', `${why} The sky is being made anew.`),
-  back() {
-    tell('device', 'The graphics device was lost; the sky was made anew.');
+  back(backend) {
+    tell('device', `The graphics device was lost; the sky was made anew${backend === 'webgl2' ? ', with WebGL2' : ''}.`);
     changed();
   },
   gone(why) {

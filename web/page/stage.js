@@ -2,19 +2,16 @@
 
 import { el } from './dom.js';
 import { fit } from './fit.js';
-
-/** Losing the device more often than this in `SPAN_MS` is no accident. */
-const MOST_LOSSES = 3;
-const SPAN_MS = 60_000;
+import { createLosses } from './losses.js';
 
 /**
  * @param {HTMLElement} view
  * @param {(canvas: HTMLCanvasElement, files: Map<string, Uint8Array>, options: object) => Promise<object>} createSky
- * @param {{opened(sky: object): void, lost(reason: string): void, back(): void, gone(reason: string): void}} tell
+ * @param {{opened(sky: object): void, lost(reason: string): void, back(backend: string): void, gone(reason: string): void}} tell
  */
 export function createStage(view, createSky, tell) {
   let [sky, canvas, files, backend] = [null, null, null, 'auto'];
-  let losses = [];
+  const losses = createLosses();
 
   /** A sky on a canvas of its own, with the settings of the one before; that one stays if it cannot be. */
   async function open(next_files, next_backend = backend) {
@@ -22,11 +19,15 @@ export function createStage(view, createSky, tell) {
     fresh.style.visibility = 'hidden';
     view.append(fresh);
     fit(fresh, view);
-    let made;
+    let [made, lost] = [null, null];
     try {
       made = await createSky(fresh, next_files, {
         backend: next_backend,
-        onlost: (why) => { if (made === sky) lose(why); },
+        // Perhaps before it is shown.
+        onlost: (why) => {
+          if (made && made === sky) lose(why);
+          else lost = why;
+        },
       });
       if (sky) made.set(sky.get());
     } catch (error) {
@@ -40,19 +41,22 @@ export function createStage(view, createSky, tell) {
     fresh.style.visibility = '';
     old[0]?.destroy?.();
     old[1]?.remove();
+    if (lost) lose(lost);
   }
 
   async function lose(why) {
-    const now = Date.now();
-    losses = [...losses.filter((then) => now - then < SPAN_MS), now];
-    if (losses.length > MOST_LOSSES) return tell.gone(why);
-    tell.lost(why);
-    try {
-      await open(files);
-      tell.back();
-    } catch (error) {
-      tell.gone(error.message);
+    const next = losses.next(backend, sky.info.backend);
+    let reason = why;
+    if (next.length) tell.lost(why);
+    for (const wanted of next) {
+      try {
+        await open(files, wanted);
+        return tell.back(sky.info.backend);
+      } catch (error) {
+        reason = error.message;
+      }
     }
+    return tell.gone(reason);
   }
 
   function draw() {
@@ -69,7 +73,7 @@ export function createStage(view, createSky, tell) {
     },
     /** Another try after the device was lost too often. */
     again() {
-      losses = [];
+      losses.forget();
       return open(files);
     },
     /** The picture as a PNG: drawn now, because a canvas keeps none. */

@@ -10,7 +10,7 @@ import { SITE } from './places.mjs';
 const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
 const QUIET = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
 /** WebGPU on SwiftShader and WebGL2 on the system's GL, both without a screen. */
-const DRAWING = ['--enable-unsafe-webgpu', '--use-angle=gl-egl', '--ignore-gpu-blocklist'];
+export const DRAWING = ['--enable-unsafe-webgpu', '--use-angle=gl-egl', '--ignore-gpu-blocklist'];
 
 /** Software adapters take their time on a machine that does other things. */
 const PATIENCE_MS = 120_000;
@@ -19,14 +19,18 @@ const TYPES = {
   '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.json': 'application/json', '.wasm': 'application/wasm', '.png': 'image/png',
 };
 
-async function serve(folder) {
+/** Serves a folder, and others below `/name/`; with `shared`, to pages of other origins too, as a CDN does. */
+export async function serve(folder, { mounts = {}, shared = false } = {}) {
   const server = createServer(async (request, answer) => {
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://page').pathname)).replace(/\/$/, '/index.html');
     // Browsers ask for it where a document names no icon.
     if (path === '/favicon.ico') return answer.writeHead(204).end();
     try {
-      const bytes = await readFile(join(folder, path));
-      answer.writeHead(200, { 'content-type': TYPES[extname(path)] ?? 'application/octet-stream' });
+      const [, name] = path.split('/');
+      const file = mounts[name] ? join(mounts[name], path.slice(name.length + 1)) : join(folder, path);
+      const bytes = await readFile(file);
+      const type = { 'content-type': TYPES[extname(path)] ?? 'application/octet-stream' };
+      answer.writeHead(200, shared ? { ...type, 'access-control-allow-origin': '*' } : type);
       answer.end(bytes);
     } catch {
       answer.writeHead(404);
@@ -47,9 +51,9 @@ export async function openBrowser({ flags = DRAWING } = {}) {
 
   /**
    * Opens the page, does `work` with it, and asserts that nothing was said on the console but what `expected` matches.
-   * @param {{search?: string, size?: [number, number], calm?: boolean, touch?: boolean, drawn?: boolean, expected?: RegExp}} options
+   * @param {{at?: string, search?: string, size?: [number, number], calm?: boolean, touch?: boolean, drawn?: boolean, expected?: RegExp}} options
    */
-  async function visit({ search = '', size = [900, 560], calm = false, touch = false, drawn = true, expected = null }, work) {
+  async function visit({ at = site.address, search = '', size = [900, 560], calm = false, touch = false, drawn = true, expected = null }, work) {
     const context = await browser.newContext({
       viewport: { width: size[0], height: size[1] }, reducedMotion: calm ? 'reduce' : 'no-preference', hasTouch: touch,
       permissions: ['clipboard-read', 'clipboard-write'], acceptDownloads: true,
@@ -60,7 +64,7 @@ export async function openBrowser({ flags = DRAWING } = {}) {
       const said = [];
       page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) said.push(message.text()); });
       page.on('pageerror', (error) => said.push(String(error)));
-      await page.goto(new URL(search, site.address).href);
+      await page.goto(new URL(search, at).href);
       if (drawn) await page.waitForFunction(() => document.documentElement.dataset.firstFrame !== undefined);
       await work(page);
       assert.deepEqual(said.filter((text) => !expected?.test(text)), [], 'the console');

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { addressHas, changedPicture, compare, frames, inAddress, openBrowser, picture } from './page-browser.mjs';
+import { DRAWING, addressHas, changedPicture, compare, frames, inAddress, openBrowser, picture } from './page-browser.mjs';
 
 const METHODS = ['packed', 'octaves', 'fbm', 'lit', 'sprites'];
 const NAMES = { webgpu: 'WebGPU', webgl2: 'WebGL2' };
@@ -283,6 +283,35 @@ test('a lost WebGPU device is said, and the sky made anew', () => browser.visit(
   const { difference } = await compare(page, await picture(page), first);
   assert.ok(difference < 1, `they differ by ${difference}`);
 }));
+
+test('where WebGPU is lost again and again, WebGL2 goes on', async () => {
+  // Of its own: a browser gives up where what draws dies often, and keeps WebGL from a page that it died under.
+  const frail = await openBrowser({ flags: [...DRAWING, '--disable-gpu-process-crash-limit', '--disable-domain-blocking-for-3d-apis'] });
+  try {
+    await frail.visit({ search: '?method=lit&paused=true&at=5', expected: /external Instance|device|GPU|gpu/i }, async (page) => {
+      assert.equal(await page.textContent('#status-backend'), 'WebGPU');
+      const first = await picture(page);
+      const session = await page.context().browser().newBrowserCDPSession();
+      for (let i = 0; i < 2; i += 1) {
+        await page.evaluate(() => { document.querySelector('#view canvas').dataset.old = 'true'; });
+        await session.send('Browser.crashGpuProcess');
+        await page.waitForFunction(() => document.querySelectorAll('#view canvas').length === 1 && !document.querySelector('#view canvas[data-old]'));
+      }
+      assert.equal(await page.textContent('#status-backend'), 'WebGL2');
+      assert.match(await page.textContent('[data-topic=device]'), /made anew, with WebGL2/);
+      assert.equal(await page.locator('[role=alert].error').count(), 0);
+      // The browser's own process comes up again and shows it.
+      const until = Date.now() + 60_000;
+      let difference = Infinity;
+      while (difference >= 1) {
+        assert.ok(Date.now() < until, `they differ by ${difference}`);
+        ({ difference } = await compare(page, await picture(page), first));
+      }
+    });
+  } finally {
+    await frail.close();
+  }
+});
 
 test('another backend can be chosen, with the same sky', () => browser.visit({ search: '?backend=webgl2&cover=0.5&at=9&paused=true' }, async (page) => {
   const first = await picture(page);

@@ -1,6 +1,8 @@
 // A program that uses all of the interface: it must compile with strict types, as its users' programs do.
 
 import { bake, check, controls, createSky, fetchPack } from '../js/welkin.js';
+import { WelkinSky } from '../js/element.js';
+import { cubeTexture, follow, type PerspectiveCamera } from '../js/three.js';
 import type { Files, Finding, Key, Sky } from '../js/welkin.js';
 
 export async function everything(canvas: HTMLCanvasElement): Promise<Finding[]> {
@@ -29,4 +31,14 @@ export async function everything(canvas: HTMLCanvasElement): Promise<Finding[]> 
   // @ts-expect-error: there is no such method.
   sky.set({ method: 'volumes' });
   return findings;
+}
+
+/** The element and three.js. */
+export async function beside(camera: PerspectiveCamera, THREE: { CubeTexture: new (images: ImageBitmap[]) => { needsUpdate: boolean }; SRGBColorSpace: string }) {
+  const element: WelkinSky = document.createElement('welkin-sky');
+  const canvas = document.createElement('canvas');
+  if (!element.sky) return null;
+  follow(element.sky, camera).draw();
+  const cube = await cubeTexture(THREE, element.sky, canvas, 128);
+  return cube.needsUpdate;
 }
