@@ -40,7 +40,7 @@ FUZZ_FLAGS := -max_len=131072 -rss_limit_mb=2048 -timeout=20
 # The other processor that bakes are compared on, under qemu.
 AARCH64 := aarch64-unknown-linux-gnu
 
-.PHONY: help sky view gallery web check test test-docs test-recipes test-node test-gpu test-window test-web recipes bench fuzz fuzz-build aarch64 aarch64-tools tools gpu-tools window-tools desktop-tools node-tools web-tools browser clean
+.PHONY: help sky view gallery web check test test-docs test-packages test-recipes test-node test-gpu test-window test-web recipes bench fuzz fuzz-build aarch64 aarch64-tools tools gpu-tools window-tools desktop-tools node-tools web-tools browser clean
 
 help: ## Say what can be made
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
@@ -154,11 +154,14 @@ check: ## Formatting, lints, and the tests that want nothing but cargo: two minu
 # One after the other, also with `make -j`: they compile in one folder, and those with a clock want the machine for themselves.
 .NOTPARALLEL:
 
-test: tools check test-docs test-recipes test-node test-gpu test-window test-web ## Run every test, and formatting, lints and docs without a warning
+test: tools check test-docs test-packages test-recipes test-node test-gpu test-window test-web ## Run every test, and formatting, lints and docs without a warning
 
 test-docs: ## Compile the documentation without a warning, and run its examples
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps $(WINDOW) --locked
 	$(TEST) --doc
+
+test-packages: ## Package what is published, and compile and test it outside the repository
+	scripts/test-packages
 
 # With debug assertions, and many times as many with the program that users have.
 test-recipes: ## Bake recipes at random and packs by the dozen, and the default pack with the release build: the same bytes
@@ -171,10 +174,12 @@ test-node: node-tools ## Read packs and fields with readers of others
 
 test-gpu: gpu-tools node-tools ## Test what is drawn, on any Vulkan and GL driver, software ones will do
 	$(PLAIN) $(ADAPTER)
+	$(CARGO) build --workspace $(WINDOW) --locked --examples
 	$(TEST) --test gpu -- --include-ignored
 	$(CARGO) test --locked -p welkin-runtime --no-default-features --lib --test gpu
 
 test-window: gpu-tools window-tools desktop-tools ## Test the window on a display without a screen
+	$(CARGO) build --workspace $(WINDOW) --locked --examples
 	$(TEST) --test window -- --include-ignored
 
 # The test of the window is what has the viewer compiled as the other tests have it.

@@ -21,7 +21,7 @@ use scene::{scenes, scenes_of_sprites};
 
 pub fn run(args: &BenchArgs) -> Result<()> {
     let pack = Pack::open(&args.pack)?;
-    let gpu = Gpu::open()?;
+    let gpu = Gpu::open(args.gpu.gpu.as_ref())?;
     let text = match args.protocol {
         None => print(args, &report(&gpu, &pack, args)?, Report::table),
         Some(Protocol::Mukhina) => print(

@@ -4,6 +4,7 @@ mod bench;
 mod cube;
 mod export;
 mod given;
+mod gpu;
 mod look;
 mod render;
 mod settings;
@@ -42,6 +43,8 @@ pub enum Command {
     Cube(CubeArgs),
     /// Time each method's sky and two reference passes on the GPU
     Bench(BenchArgs),
+    /// List the GPUs that can be drawn with, and what `--gpu` knows them by
+    Gpus,
     /// Measure the structure of each method's clouds against photographs', and draw a page of its skies
     Look(LookArgs),
 }
@@ -63,7 +66,7 @@ impl Cli {
         let agreed = match &cli.command {
             Some(Command::Render(args)) => args.refuse_others(given),
             Some(Command::Bench(args)) => args.refuse_others(),
-            Some(Command::Cube(_) | Command::Look(_)) | None => Ok(()),
+            Some(Command::Cube(_) | Command::Gpus | Command::Look(_)) | None => Ok(()),
         };
         agreed.map_err(|message| {
             let subcommand = command.find_subcommand_mut(name);

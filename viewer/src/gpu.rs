@@ -4,69 +4,10 @@
 //! is drawn here can be drawn in a browser too. `WGPU_BACKEND` (such as `vulkan` or `gl`) and
 //! `WGPU_ADAPTER_NAME` (a part of a name) choose among several adapters, as in many programs built on wgpu.
 
-use welkin_runtime::SkyError;
-
+use crate::adapters::{self, choose};
 use crate::frame::Target;
-
-const INSTALL: &str = "install a driver for the GPU, or Mesa's software Vulkan \
-     (on Debian and Ubuntu: apt-get install mesa-vulkan-drivers libvulkan1)";
-
-/// Why nothing could be drawn.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum GpuError {
-    /// There is no adapter at all.
-    #[error("no graphics adapter was found; {INSTALL}")]
-    NoAdapter,
-    /// No adapter has the name that was asked for.
-    #[error(
-        "no graphics adapter has \"{wanted}\" in its name, found {found}; change or unset WGPU_ADAPTER_NAME"
-    )]
-    NoSuchAdapter {
-        /// Value of `WGPU_ADAPTER_NAME`.
-        wanted: String,
-        /// Names of the adapters that there are.
-        found: String,
-    },
-    /// The adapter would not give a device.
-    #[error("{adapter}: gives no device with the limits of WebGL2: {reason}; {INSTALL}")]
-    NoDevice {
-        /// Name of the adapter.
-        adapter: String,
-        /// Its reason.
-        reason: String,
-    },
-    /// The frame is larger than this device can draw or give back.
-    #[error(
-        "the frame is {width}x{height} pixels, expected 1 to {max_side} a side and {max_pixels} in all \
-         on {adapter}; choose another --size"
-    )]
-    FrameSize {
-        /// Pixels a row.
-        width: u32,
-        /// Rows.
-        height: u32,
-        /// Most pixels a side.
-        max_side: u32,
-        /// Most pixels in all.
-        max_pixels: u64,
-        /// Name of the adapter.
-        adapter: String,
-    },
-    /// The device stopped working while it drew.
-    #[error(
-        "{adapter}: failed while drawing: {reason}; update its driver, or try another one with WGPU_ADAPTER_NAME"
-    )]
-    Device {
-        /// Name of the adapter.
-        adapter: String,
-        /// Its reason.
-        reason: String,
-    },
-    /// The pack cannot be drawn on this device.
-    #[error(transparent)]
-    Sky(#[from] SkyError),
-}
+pub use crate::gpu_error::GpuError;
+use crate::wanted::Wanted;
 
 /// An opened adapter.
 #[derive(Debug)]
@@ -80,26 +21,28 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Opens the adapter that the environment names, or the fastest one.
+    /// Opens the adapter that is wanted, or that the environment names, or the fastest one.
     ///
     /// # Errors
-    /// [`GpuError::NoAdapter`], [`GpuError::NoSuchAdapter`], [`GpuError::NoDevice`].
-    pub fn open() -> Result<Gpu, GpuError> {
-        let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-        Ok(Gpu::open_for(&wgpu::Instance::new(descriptor), None)?.0)
+    /// [`GpuError::NoAdapter`], [`GpuError::NoSuchName`], [`GpuError::NoSuchAdapter`], [`GpuError::NoDevice`].
+    pub fn open(wanted: Option<&Wanted>) -> Result<Gpu, GpuError> {
+        pollster::block_on(async {
+            let adapter = adapters::without_display(wanted).await?;
+            open_device(&adapter).await
+        })
     }
 
-    /// Opens the adapter that the environment names, or the fastest one, of those that can draw to the surface.
+    /// The same of those that can draw to the surface.
     ///
     /// # Errors
     /// As [`Gpu::open`].
     pub fn open_for(
         instance: &wgpu::Instance,
-        surface: Option<&wgpu::Surface<'_>>,
+        surface: &wgpu::Surface<'_>,
+        wanted: Option<&Wanted>,
     ) -> Result<(Gpu, wgpu::Adapter), GpuError> {
         pollster::block_on(async {
-            let wanted = std::env::var("WGPU_ADAPTER_NAME").ok();
-            let adapter = choose_adapter(instance, surface, wanted.as_deref()).await?;
+            let adapter = choose(instance, Some(surface), wanted).await?;
             Ok((open_device(&adapter).await?, adapter))
         })
     }
@@ -201,40 +144,6 @@ impl Gpu {
     }
 }
 
-async fn choose_adapter(
-    instance: &wgpu::Instance,
-    surface: Option<&wgpu::Surface<'_>>,
-    wanted: Option<&str>,
-) -> Result<wgpu::Adapter, GpuError> {
-    let Some(wanted) = wanted else {
-        let options = wgpu::RequestAdapterOptions {
-            power_preference: wgpu::PowerPreference::HighPerformance,
-            compatible_surface: surface,
-            ..Default::default()
-        };
-        return instance
-            .request_adapter(&options)
-            .await
-            .map_err(|_| GpuError::NoAdapter);
-    };
-    let mut adapters = instance.enumerate_adapters(wgpu::Backends::all()).await;
-    adapters.retain(|adapter| surface.is_none_or(|s| adapter.is_surface_supported(s)));
-    let names: Vec<String> = adapters.iter().map(|a| a.get_info().name).collect();
-    if names.is_empty() {
-        return Err(GpuError::NoAdapter);
-    }
-    match names
-        .iter()
-        .position(|n| n.to_lowercase().contains(&wanted.to_lowercase()))
-    {
-        Some(index) => Ok(adapters.swap_remove(index)),
-        None => Err(GpuError::NoSuchAdapter {
-            wanted: wanted.to_string(),
-            found: names.join(", "),
-        }),
-    }
-}
-
 async fn open_device(adapter: &wgpu::Adapter) -> Result<Gpu, GpuError> {
     let info = adapter.get_info();
     let timestamps =
@@ -266,7 +175,7 @@ mod tests {
 
     #[test]
     fn frames_that_the_device_cannot_hold_are_refused() {
-        let gpu = Gpu::open().unwrap();
+        let gpu = Gpu::open(None).unwrap();
         let side = gpu.device.limits().max_texture_dimension_2d;
         for size in [
             [0, 1],

@@ -239,7 +239,7 @@ mod tests {
 
     #[test]
     fn every_pixel_comes_back_in_its_place_however_rows_are_padded() {
-        let gpu = Gpu::open().unwrap();
+        let gpu = Gpu::open(None).unwrap();
         let pipeline = full_screen_pipeline(&gpu, PLACES, Target::Linear.texture_format(), "place");
         // Rows of 256 bytes need no padding, others do.
         for [width, height] in [[32, 5], [33, 4], [1, 1], [3, 70]] {

@@ -93,7 +93,7 @@ pub fn run(args: &LookArgs) -> Result<()> {
         open(folder, args)?;
     }
     let pack = Pack::open(&args.pack)?;
-    let gpu = Gpu::open()?;
+    let gpu = Gpu::open(args.gpu.gpu.as_ref())?;
     let oktas = Oktas::new(&pack)?;
     interrupt::listen()?;
     let [a, b, c] = OKTAS;

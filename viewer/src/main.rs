@@ -6,6 +6,7 @@
 mod bench;
 mod cli;
 mod cube;
+mod gpus;
 mod look;
 mod render;
 mod save_light;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Cube(args)) => cube::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
+        Some(Command::Gpus) => gpus::run(),
         Some(Command::Look(args)) => look::run(&args),
         #[cfg(feature = "window")]
         None => window::run(&cli.window),

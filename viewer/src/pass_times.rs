@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn every_frame_s_times_come_back_and_free_their_slot() {
-        let gpu = Gpu::open().unwrap();
+        let gpu = Gpu::open(None).unwrap();
         let Some(mut times) = PassTimes::new(&gpu) else {
             return;
         };

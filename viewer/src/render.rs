@@ -48,7 +48,7 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     if let Some(oktas) = args.oktas {
         view.params.cover = cover_for_oktas(&pack, &view.params, oktas)?;
     }
-    let gpu = Gpu::open()?;
+    let gpu = Gpu::open(args.gpu.gpu.as_ref())?;
     let sequence = args.export.sequence(view.seconds);
     tell_leftovers(&sweep_beside(&args.output));
     match (shot, sequence) {

@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn timestamps_give_each_part_of_a_frame_its_own_time() {
-        let gpu = Gpu::open().unwrap();
+        let gpu = Gpu::open(None).unwrap();
         let mut clocks = Vec::new();
         if gpu.has_timestamps() {
             clocks.push(Clock::Passes(
@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn without_timestamps_the_wall_clock_serves() {
-        let gpu = Gpu::open().unwrap();
+        let gpu = Gpu::open(None).unwrap();
         let time = time(&gpu, &FrameTimer { clock: Clock::Cpu }, [true, true]);
         assert!(time.map_ms > 0.0 && time.dome_ms > 0.0, "{time:?}");
     }

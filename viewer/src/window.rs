@@ -9,6 +9,7 @@ mod command;
 mod dropped;
 mod graphics;
 mod keyboard;
+mod libraries;
 mod panel;
 mod recipe;
 mod shot;
@@ -31,6 +32,9 @@ use wake::Wake;
 /// A pack or settings that cannot be read, no display, no adapter.
 pub fn run(args: &WindowArgs) -> Result<()> {
     let state = State::open(args)?;
+    if let Some(error) = libraries::missing() {
+        return Err(error);
+    }
     let event_loop = EventLoop::<Wake>::with_user_event()
         .build()
         .map_err(|error| no_display(&error))?;
@@ -42,6 +46,9 @@ pub fn run(args: &WindowArgs) -> Result<()> {
 }
 
 fn no_display(reason: &dyn std::error::Error) -> anyhow::Error {
+    if let Some(error) = libraries::named(&format!("{reason} {reason:?}")) {
+        return error;
+    }
     anyhow!(
         "there is no display to open a window on ({reason}); start it in a desktop session, or draw without a window: \
          `welkin-view render PACK -o FRAME.png`"

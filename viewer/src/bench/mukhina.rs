@@ -150,7 +150,7 @@ mod tests {
             .and_then(|r| r.resolve(None))
             .unwrap();
         let pack = welkin_baker::bake(&resolved, None, &|_| ControlFlow::Continue(())).unwrap();
-        let gpu = Gpu::open().unwrap();
+        let gpu = Gpu::open(None).unwrap();
         let sizes = [([16, 8], 0.5), ([8, 16], 0.75)];
         let report = report_of(&gpu, &pack, &sizes, 2).unwrap();
         let json = serde_json::to_value(&report).unwrap();

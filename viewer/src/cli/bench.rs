@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use welkin_runtime::params::{SETTINGS, whole_within};
 use welkin_runtime::{Method, SkyParams};
 
+use super::gpu::GpuArgs;
 use super::values::size;
 use crate::bench::scene::SpriteScene;
 
@@ -33,6 +34,8 @@ pub struct BenchArgs {
     /// Print JSON instead of a table
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub gpu: GpuArgs,
 }
 
 /// Pixels where neither option nor protocol says how many.

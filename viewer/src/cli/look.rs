@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::gpu::GpuArgs;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use welkin_runtime::Method;
@@ -21,6 +22,8 @@ pub struct LookArgs {
     /// the zenith at last is like that at first, moved [default: 60]
     #[arg(long, value_name = "SECONDS", num_args = 0..=1, require_equals = true, default_missing_value = "60", value_parser = motion_s)]
     pub motion: Option<u32>,
+    #[command(flatten)]
+    pub gpu: GpuArgs,
 }
 
 fn motion_s(text: &str) -> Result<u32, String> {

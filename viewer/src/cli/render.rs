@@ -11,6 +11,7 @@ use welkin_viewer::headless::View;
 use welkin_viewer::save::target_for;
 
 use super::export::{ExportArgs, Shot};
+use super::gpu::GpuArgs;
 use super::settings::{LIT, SKY, SettingArgs};
 use super::values::size;
 
@@ -39,6 +40,8 @@ pub struct RenderArgs {
     pub shadow_extent: f32,
     #[command(flatten)]
     pub export: ExportArgs,
+    #[command(flatten)]
+    pub gpu: GpuArgs,
 }
 
 /// As far as the lowest layer's texture reaches, about.

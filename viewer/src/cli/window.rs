@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::gpu::GpuArgs;
 use super::values::size;
 
 /// What `welkin-view` without a command takes.
@@ -21,4 +22,6 @@ pub struct WindowArgs {
     /// Size of the window in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x800", value_parser = size, allow_hyphen_values = true)]
     pub window_size: [u32; 2],
+    #[command(flatten)]
+    pub gpu: GpuArgs,
 }

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Result, anyhow};
 use welkin_controls::Pilot;
 use welkin_pack::Pack;
+use welkin_viewer::wanted::Wanted;
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, MouseButton, MouseScrollDelta, WindowEvent};
@@ -43,6 +44,8 @@ pub struct App {
     /// Where packs of the watched recipe are written to. A pack that was dropped is only looked at.
     watched_pack: Option<PathBuf>,
     photo: Option<PathBuf>,
+    /// The GPU to draw with.
+    wanted: Option<Wanted>,
     size_px: [u32; 2],
     last_frame: Instant,
     /// When the panel wants to be drawn again by itself.
@@ -66,6 +69,7 @@ impl App {
             watched: args.watch.clone(),
             watched_pack: args.watch.as_ref().and(args.pack.clone()),
             photo: None,
+            wanted: args.gpu.gpu.clone(),
             size_px: args.window_size,
             last_frame: Instant::now(),
             panel_due: None,
@@ -97,7 +101,7 @@ impl App {
         self.device += 1;
         let graphics = Graphics::open(
             window,
-            event_loop.owned_display_handle(),
+            (event_loop.owned_display_handle(), self.wanted.as_ref()),
             &self.state.source.pack,
             self.ui.clone(),
             (self.device, &self.proxy),

@@ -10,6 +10,7 @@ use welkin_runtime::Sky;
 use welkin_viewer::gpu::{Gpu, GpuError};
 use welkin_viewer::headless::{begin_pass, draw_pass, new_sky};
 use welkin_viewer::pass_times::{Part, PassTimes};
+use welkin_viewer::wanted::Wanted;
 use wgpu::CurrentSurfaceTexture::{Lost, Occluded, Outdated, Suboptimal, Success, Timeout};
 use winit::event_loop::{EventLoopProxy, OwnedDisplayHandle};
 use winit::window::Window;
@@ -41,7 +42,7 @@ impl Graphics {
     /// No adapter that draws to the window, or none that takes the pack.
     pub fn open(
         window: Arc<Window>,
-        display: OwnedDisplayHandle,
+        (display, wanted): (OwnedDisplayHandle, Option<&Wanted>),
         pack: &Pack,
         ui: egui::Context,
         (number, proxy): (u64, &EventLoopProxy<Wake>),
@@ -52,7 +53,7 @@ impl Graphics {
         let surface = instance
             .create_surface(window.clone())
             .map_err(|reason| no_surface(&instance, reason))?;
-        let (gpu, adapter) = Gpu::open_for(&instance, Some(&surface))?;
+        let (gpu, adapter) = Gpu::open_for(&instance, &surface, wanted)?;
         tell_losses(&gpu.device, number, proxy);
         let config = configuration(&surface, &adapter, &window)
             .ok_or_else(|| anyhow!("{}: cannot draw to this window", gpu.adapter))?;

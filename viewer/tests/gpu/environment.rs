@@ -24,7 +24,7 @@ const SIDE: u32 = 128;
 
 fn gpu() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
-    GPU.get_or_init(|| Gpu::open().unwrap())
+    GPU.get_or_init(|| Gpu::open(None).unwrap())
 }
 
 fn sky() -> Environment<'static> {

@@ -145,6 +145,41 @@ fn without_an_adapter_it_says_what_to_install() {
 }
 
 #[test]
+fn a_gpu_is_chosen_by_its_number_and_a_drawn_frame_says_nothing_on_standard_error() {
+    let list = run(view(&["gpus"]));
+    let text = String::from_utf8(list.stdout).unwrap();
+    let rows: Vec<&str> = text.lines().skip(1).collect();
+    assert!(list.status.success() && !rows.is_empty(), "{text}");
+    assert!(rows[0].starts_with("0 "), "{text}");
+    let folder = tempfile::tempdir().unwrap();
+    let frame = folder.path().join("frame.png");
+    let draw = |gpu: &[&str]| {
+        let mut command = view(&["render", "--size", "16x16", "-o"]);
+        command.arg(&frame).arg(pack()).args(gpu);
+        run(command)
+    };
+    let plain = draw(&[]);
+    assert!(plain.status.success(), "{plain:?}");
+    assert_eq!(String::from_utf8_lossy(&plain.stderr), "");
+    assert!(draw(&["--gpu", "0"]).status.success());
+    failed(
+        &draw(&["--gpu", "99"]),
+        1,
+        &["number 99", "welkin-view gpus"],
+    );
+    failed(
+        &draw(&["--gpu", "ffff:ff:1f.7"]),
+        1,
+        &["ffff:ff:1f.7", "welkin-view gpus"],
+    );
+    failed(
+        &draw(&["--gpu", "fast"]),
+        2,
+        &["PCI bus id", "welkin-view gpus"],
+    );
+}
+
+#[test]
 fn nothing_is_written_into_the_pack_that_is_drawn_or_twice_into_one_place() {
     let folder = tempfile::tempdir().unwrap();
     let copy = folder.path().join("pack");

@@ -278,6 +278,45 @@ fn a_pack_that_is_dropped_while_a_recipe_is_watched_is_never_written_to() {
     assert_eq!(seed(&other), Some(5));
 }
 
+/// Hills in the lower half, the sky above; keys turn the hours and choose methods.
+#[test]
+fn the_example_draws_a_scene_under_its_sky() {
+    let desktop = Desktop::new();
+    let program = desktop.example("window");
+    eventually("the hills are on the screen", || {
+        let screen = desktop.screen();
+        let [above, below] = [0..200, 400..600].map(|rows| screen.mean(rows));
+        // Blue above, the green and brown of the ground below.
+        above[2] > above[0] + 10.0 && below[2] < below[1] && below[1] > 20.0
+    });
+    for key in ["Left", "Up", "2"] {
+        let before = desktop.screen();
+        eventually("the key changes the picture", || {
+            program.key(key);
+            desktop.screen().sky_differs(&before)
+        });
+    }
+}
+
+#[test]
+fn without_a_library_of_the_keyboard_it_says_which_package_has_it() {
+    let desktop = Desktop::new();
+    for (file, package) in [
+        ("libxkbcommon-x11.so.0", "libxkbcommon-x11-0"),
+        ("libxkbcommon.so.0", "libxkbcommon0"),
+        ("libXcursor.so.1", "libxcursor1"),
+    ] {
+        // What the loader finds first is no library.
+        let damaged = tempfile::tempdir().unwrap();
+        std::fs::write(damaged.path().join(file), "no library").unwrap();
+        let mut command = view(&[pack().to_str().unwrap()]);
+        command
+            .env("DISPLAY", desktop.name())
+            .env("LD_LIBRARY_PATH", damaged.path());
+        failed(&run(command), 1, &[package, "apt-get install"]);
+    }
+}
+
 #[test]
 fn without_a_display_or_an_adapter_it_says_what_to_do() {
     let mut command = view(&[pack().to_str().unwrap()]);

@@ -189,7 +189,7 @@ fn factor(rest: &mut &str, name: &dyn Fn(&str) -> f64) -> f64 {
 #[test]
 fn the_formulas_for_readers_are_those_that_were_written() {
     let coefficients: [f64; COUNT] = std::array::from_fn(|i| 1.0 + (i * i) as f64);
-    let docs = include_str!("../../../../docs/environment-maps.md");
+    let docs = include_str!("../../../docs/environment-maps.md");
     let (_, wgsl) = docs.split_once("```wgsl\n").unwrap();
     let (wgsl, _) = wgsl.split_once("```").unwrap();
     let module = naga::front::wgsl::parse_str(wgsl).unwrap();

@@ -86,7 +86,7 @@ fn the_json_has_the_keys_that_it_is_documented_to_have() {
     let json = light.json("noon \"2\".hdr", "sky.ktx2").unwrap();
     let value: serde_json::Value = serde_json::from_str(&json).unwrap();
     let keys: Vec<_> = value.as_object().unwrap().keys().cloned().collect();
-    let docs = include_str!("../../../../docs/json.md");
+    let docs = include_str!("../../../docs/json.md");
     let (_, section) = docs.split_once("## Image-based light").unwrap();
     let documented = |key: &str| section.contains(&format!("`{key}`"));
     assert_eq!(keys.len(), 9);

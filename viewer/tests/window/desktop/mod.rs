@@ -95,6 +95,20 @@ impl Desktop {
         program
     }
 
+    /// An example of the runtime, which `cargo build --workspace --examples` makes beside the program.
+    pub fn example(&self, name: &str) -> Program<'_> {
+        let file = Path::new(env!("CARGO_BIN_EXE_welkin-view")).with_file_name("examples");
+        let child = Command::new(file.join(name))
+            .env("DISPLAY", &self.display)
+            .env_remove("WAYLAND_DISPLAY")
+            .spawn()
+            .expect("the example starts; `make test-window` builds it");
+        Program {
+            desktop: self,
+            child,
+        }
+    }
+
     pub fn clipboard(&self) -> String {
         let mut command = Command::new("xclip");
         command.args(["-o", "-selection", "clipboard"]);

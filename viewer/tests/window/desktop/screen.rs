@@ -51,6 +51,16 @@ impl Screen {
         })
     }
 
+    /// Mean colour of rows of the whole display.
+    pub fn mean(&self, rows: std::ops::Range<u32>) -> [f64; 3] {
+        let width = SIZE_PX[0] as usize;
+        let pixels = &self.0[rows.start as usize * width..rows.end as usize * width];
+        [0, 1, 2].map(|channel| {
+            let sum: u64 = pixels.iter().map(|colour| u64::from(colour[channel])).sum();
+            sum as f64 / pixels.len() as f64
+        })
+    }
+
     /// Whether there is a sky by day right of the panel: nothing there is black.
     pub fn is_sky(&self) -> bool {
         self.darkest().1.into_iter().max() > Some(40)
