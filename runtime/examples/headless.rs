@@ -8,7 +8,7 @@ const SIZE_PX: [u32; 2] = [1280, 720];
 
 fn main() -> scene::Result<()> {
     let (device, queue) = scene::device()?;
-    // What is no float gets a picture, tone curve and all; the hardware encodes it.
+    // A target that is not a float gets a tonemapped picture; the hardware encodes it as sRGB.
     let config = SkyConfig {
         target_format: wgpu::TextureFormat::Rgba8UnormSrgb,
         depth: None,

@@ -32,7 +32,8 @@ fn main() -> scene::Result<()> {
     };
     let light = sky.light(&params, 30.0);
 
-    // +X east, +Y north, +Z up: as in Blender. What the sky gives, directions and all, has its own axes; `axes.from_sky` turns them.
+    // +X east, +Y north, +Z up: as in Blender. The light that the sky gives is in its own axes: shaders either take normals there, as the hills
+    // do, or what is given is turned: `axes.from_sky(light.sun.direction)`.
     let axes = Axes::Z_UP;
     let eye = Vec3::new(0.0, 0.0, 60.0);
     let [width, height] = SIZE_PX.map(|side| side as f32);

@@ -14,9 +14,11 @@
 //!
 //! ```no_run
 //! # fn f(device: &wgpu::Device, queue: &wgpu::Queue, mut encoder: wgpu::CommandEncoder, descriptor: &wgpu::RenderPassDescriptor<'_>) -> Result<(), Box<dyn std::error::Error>> {
-//! use welkin_runtime::{Camera, Sky, SkyConfig, SkyParams};
+//! use welkin_runtime::{Camera, DepthConfig, Sky, SkyConfig, SkyParams};
 //! let pack = welkin_pack::Pack::open("packs/default")?;
-//! let config = SkyConfig { target_format: wgpu::TextureFormat::Bgra8UnormSrgb, depth: None, sample_count: 1 };
+//! // As the pass in which the sky is drawn: its depth lets the scene stand before the sky.
+//! let depth = DepthConfig { format: wgpu::TextureFormat::Depth32Float, reversed: true };
+//! let config = SkyConfig { target_format: wgpu::TextureFormat::Bgra8UnormSrgb, depth: Some(depth), sample_count: 1 };
 //! let mut sky = Sky::new(device, queue, config, &pack)?;
 //! // Each frame, before the pass is begun and then inside it, after the opaque scene:
 //! sky.prepare(queue, &mut encoder, &SkyParams::default(), &Camera::looking(3.1, 0.4, 1.0, [1280, 720]), 12.5);

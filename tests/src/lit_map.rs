@@ -199,7 +199,7 @@ impl Place {
             [LayerKind::Cumulus, LayerKind::Cirrus].map(|kind| &kinds[kind as usize]);
         let kind = layer.kind as usize;
         let here = match kind == LayerKind::Cirrus as usize {
-            true => fibres.sample((2.0 * bent(uv)).to_array(), level + FIBRE_LEVEL),
+            true => fibres.splined(2.0 * bent(uv), level + FIBRE_LEVEL),
             false => kinds[kind].sample(uv.to_array(), level),
         };
         let away = (uv + layer.second_offset).to_array();

@@ -1,5 +1,6 @@
 //! Texture reads as a GPU does them: texel centres at (i + 0.5) / n, bilinear in a level, linear between levels.
 
+use glam::Vec2;
 use welkin_pack::role::Wrap;
 use welkin_pack::{Image, Pack, Role};
 
@@ -65,6 +66,24 @@ impl Texture {
             Wrap::Repeat => i.rem_euclid(size as i32) as u32,
             Wrap::Clamp => i.clamp(0, size as i32 - 1) as u32,
         }
+    }
+
+    /// A cubic B-spline of four linear reads, of the texels of the finer of two levels.
+    pub fn splined(&self, uv: Vec2, level: f32) -> [f32; 4] {
+        let whole = (level as usize).min(self.levels.len() - 1);
+        let size = self.levels[whole].width as f32;
+        let place = uv * size - 0.5;
+        let f = place - place.floor();
+        let g = 1.0 - f;
+        let (first, last) = (g * g * g / 6.0, f * f * f / 6.0);
+        let upper = last + (4.0 - 3.0 * g * g * (1.0 + f)) / 6.0;
+        let low = (place.floor() - 0.5 + (1.0 - first / (1.0 - upper))) / size;
+        let high = (place.floor() + 1.5 + last / upper) / size;
+        let row = |v: f32| {
+            let [west, east] = [low.x, high.x].map(|u| self.sample([u, v], level));
+            mix(west, east, upper.x)
+        };
+        mix(row(low.y), row(high.y), upper.y)
     }
 
     /// Trilinear filtering at a level of detail, which is clamped to the levels there are.

@@ -22,6 +22,8 @@ use told::told;
 use welkin_pack::interrupt;
 
 fn main() -> ExitCode {
+    #[cfg(target_os = "linux")]
+    without_session();
     // Wrong usage and `--help` end here, as clap has them end.
     let cli = Cli::read(std::env::args_os()).unwrap_or_else(|e| e.exit());
     let done = match cli.command {
@@ -41,6 +43,28 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if interrupt::requested() => failed(&told(&error), interrupt::EXIT_CODE),
         Err(error) => failed(&told(&error), 1),
+    }
+}
+
+/// Begins again without Mesa's Vulkan layer that orders devices by what a compositor tells, where there is no session to tell anything:
+/// it would complain of that on standard error. What a person has told the layer itself stays in force.
+#[cfg(target_os = "linux")]
+fn without_session() {
+    use std::os::unix::process::CommandExt;
+    let told = [
+        "XDG_RUNTIME_DIR",
+        "NODEVICE_SELECT",
+        "MESA_VK_DEVICE_SELECT",
+    ];
+    if told.iter().any(|name| std::env::var_os(name).is_some()) {
+        return;
+    }
+    let mut words = std::env::args_os();
+    if let (Ok(program), Some(name)) = (std::env::current_exe(), words.next()) {
+        let mut again = std::process::Command::new(program);
+        again.arg0(name).args(words).env("NODEVICE_SELECT", "1");
+        // It comes back only where that fails; then all goes on as it would.
+        let _failure = again.exec();
     }
 }
 

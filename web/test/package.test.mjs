@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { compare, openBrowser, serve } from './page-browser.mjs';
-import { ROOT, SITE } from './places.mjs';
+import { ROOT, SITE, VIEW } from './places.mjs';
 
 const MODULES = join(ROOT, 'web/node_modules');
 /** Bakes in a moment: nothing is larger than it has to be. */
@@ -21,8 +21,8 @@ before(async () => {
   closing.push(() => browser.close());
   folder = mkdtempSync(join(tmpdir(), 'welkin-package-'));
   closing.push(() => rmSync(folder, { recursive: true }));
-  writeFileSync(join(folder, 'index.html'), '<!doctype html><link rel="icon" href="data:,"><body style="margin:0"></body>');
-  own = await serve(folder, { mounts: { welkin: join(ROOT, 'out/npm'), pack: join(SITE, 'pack'), three: join(MODULES, 'three/build') } });
+  writeFileSync(join(folder, 'index.html'), '<!doctype html><link rel="icon" href="data:,"><script type="importmap">{"imports":{"three":"/three/three.module.js"}}</script><body style="margin:0"></body>');
+  own = await serve(folder, { mounts: { welkin: join(ROOT, 'out/npm'), pack: join(SITE, 'pack'), three: join(MODULES, 'three/build'), jsm: join(MODULES, 'three/examples/jsm') } });
   closing.push(() => own.close());
 });
 after(async () => { for (const close of closing) await close(); });
@@ -140,6 +140,47 @@ test('with three.js the sky stands where its camera looks, and is a cube', () =>
     assert.ok(difference < 5, `they differ by ${difference}`);
   }
 }));
+
+test('a panorama of ours lies in three.js as docs/engines says', async () => {
+  const settings = { method: 'octaves', cover: 0.45, time: 0.62 };
+  const options = Object.entries(settings).flatMap(([name, value]) => [`--${name}`, String(value)]);
+  execFileSync(VIEW, ['render', join(SITE, 'pack'), '-o', join(folder, 'sky.hdr'), '--equirect', '512', '--azimuth', '90', ...options]);
+  await visit(async (page) => {
+    const alike = await page.evaluate(async (values) => {
+      const [THREE, { HDRLoader }, { createSky }, { follow }] = await Promise.all(['three', '/jsm/loaders/HDRLoader.js', '/welkin/welkin.js', '/welkin/three.js'].map((module) => import(module)));
+      const [ours, theirs] = [0, 1].map(() => Object.assign(document.createElement('canvas'), { width: 96, height: 96 }));
+      const sky = await createSky(ours, '/pack/', { backend: 'webgl2', settings: { ...values, flare: 0 } });
+      const renderer = new THREE.WebGLRenderer({ canvas: theirs, preserveDrawingBuffer: true });
+      renderer.toneMapping = THREE.AgXToneMapping;
+      renderer.setSize(96, 96, false);
+      const texture = await new HDRLoader().loadAsync('/sky.hdr');
+      texture.mapping = THREE.EquirectangularReflectionMapping;
+      const scene = new THREE.Scene();
+      scene.background = texture;
+      const brightness = (canvas) => {
+        const flat = new OffscreenCanvas(96, 96).getContext('2d');
+        flat.drawImage(canvas, 0, 0);
+        const { data } = flat.getImageData(0, 0, 96, 96);
+        return Array.from({ length: 96 * 96 }, (_, i) => data[4 * i] + data[4 * i + 1] + data[4 * i + 2]);
+      };
+      const correlation = (a, b) => {
+        const mean = (list) => list.reduce((sum, v) => sum + v, 0) / list.length;
+        const [ma, mb] = [mean(a), mean(b)];
+        const dot = (f) => a.reduce((sum, _, i) => sum + f(i), 0);
+        return dot((i) => (a[i] - ma) * (b[i] - mb)) / Math.sqrt(dot((i) => (a[i] - ma) ** 2) * dot((i) => (b[i] - mb) ** 2));
+      };
+      return [[0, 0.3, -1], [1, 0.4, 0.2], [-1, 0.3, 0.1], [-0.2, 0.5, 1], [0.3, 1, -0.4]].map((way) => {
+        const camera = new THREE.PerspectiveCamera(50, 1);
+        camera.lookAt(...way);
+        renderer.render(scene, camera);
+        follow(sky, camera).draw();
+        return correlation(brightness(ours), brightness(theirs));
+      });
+    }, settings);
+    // The tone curves are not the same, and 512 texels around blur an edge.
+    assert.ok(alike.every((share) => share > 0.9), alike.join(' '));
+  });
+});
 
 test('packed, installed and bundled by Vite it draws and bakes', async () => {
   const project = join(folder, 'vite');

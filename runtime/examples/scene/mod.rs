@@ -18,7 +18,7 @@ use welkin_runtime::wgpu;
 
 pub type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// What is not written by its own size: the scene and the sky are drawn as linear radiance.
+/// Scene and sky are drawn as linear radiance.
 pub const RADIANCE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
@@ -30,7 +30,7 @@ pub fn pack() -> Result<Pack> {
     })?)
 }
 
-/// Any adapter's device, by default with the limits of WebGL2, which is all that Welkin wants.
+/// The device of the default adapter.
 pub fn device() -> Result<(wgpu::Device, wgpu::Queue)> {
     let instance =
         wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
@@ -38,7 +38,7 @@ pub fn device() -> Result<(wgpu::Device, wgpu::Queue)> {
     open(&adapter)
 }
 
-/// Its device.
+/// A device of an adapter. Ask for the limits that your own passes need: Welkin needs no more than these, those of WebGL2.
 pub fn open(adapter: &wgpu::Adapter) -> Result<(wgpu::Device, wgpu::Queue)> {
     let limits = wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits());
     Ok(pollster::block_on(adapter.request_device(

@@ -104,7 +104,9 @@ fn fs_scene(in: Varyings) -> @location(0) vec4f {
     let up = select(light.moon_direction, light.sun_direction, light.sun_direction.y > light.moon_direction.y);
     var direct = sky_light_direct(light, normal);
     if frame.shadow_area.z > 0.0 {
-        direct = sky_light_clear(light, normal) * cloud_shadow(shadow_map, shadow_sampler, frame.shadow_area, place.xz);
+        // Farther away than the shadows reach clouds count by their mean.
+        let mean = max(light.sun.g, light.moon.g) / max(max(light.clear_sun.g, light.clear_moon.g), 1e-9);
+        direct = sky_light_clear(light, normal) * cloud_shadow_or(shadow_map, shadow_sampler, frame.shadow_area, place.xz, mean);
     }
     let irradiance = direct * hills_leave(place + normal, up) + sky_light_ambient(light, normal);
     let radiance = albedo / 3.14159265 * irradiance;

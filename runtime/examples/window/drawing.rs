@@ -5,7 +5,7 @@ use std::sync::Arc;
 use welkin_runtime::glam::camera::rh::{proj::directx as projection, view};
 use welkin_runtime::glam::{Mat4, Quat, Vec3};
 use welkin_runtime::{Camera, DepthConfig, Sky, SkyConfig, SkyParams, wgpu};
-use winit::dpi::PhysicalSize;
+use winit::dpi::LogicalSize;
 use winit::event_loop::ActiveEventLoop;
 use winit::window::Window;
 
@@ -20,13 +20,22 @@ pub struct Drawing {
     sky: Sky,
     hills: scene::Hills,
     tone: scene::Tone,
+    /// Radiance and depth.
+    targets: [wgpu::TextureView; 2],
+}
+
+fn targets(device: &wgpu::Device, size_px: [u32; 2]) -> [wgpu::TextureView; 2] {
+    let size_px = size_px.map(|side| side.max(1));
+    [scene::RADIANCE, scene::DEPTH].map(|format| scene::target(device, format, size_px, 1).1)
 }
 
 impl Drawing {
     pub fn new(event_loop: &ActiveEventLoop) -> scene::Result<Drawing> {
         let attributes = Window::default_attributes()
-            .with_title("Hills under the sky")
-            .with_inner_size(PhysicalSize::new(1280, 720));
+            .with_title(
+                "Hills under the sky: arrows turn hours and bring clouds, 1 to 5 choose the method",
+            )
+            .with_inner_size(LogicalSize::new(1280, 720));
         let window = Arc::new(event_loop.create_window(attributes)?);
         let display = Box::new(event_loop.owned_display_handle());
         let instance = wgpu::Instance::new(
@@ -39,9 +48,14 @@ impl Drawing {
         }))?;
         let (device, queue) = scene::open(&adapter)?;
         let [width, height]: [u32; 2] = window.inner_size().into();
-        let surface_config = surface
+        let mut surface_config = surface
             .get_default_config(&adapter, width.max(1), height.max(1))
             .ok_or("the adapter does not draw to this window")?;
+        surface_config.present_mode = wgpu::PresentMode::AutoVsync;
+        // The tone curve gives linear light: the target has to encode it.
+        let formats = surface.get_capabilities(&adapter).formats;
+        let encoding = formats.iter().find(|format| format.is_srgb());
+        surface_config.format = *encoding.ok_or("the window has no sRGB format")?;
         surface.configure(&device, &surface_config);
         let config = SkyConfig {
             target_format: scene::RADIANCE,
@@ -55,6 +69,7 @@ impl Drawing {
             sky: Sky::new(&device, &queue, config, &scene::pack()?)?,
             hills: scene::Hills::new(&device, &config),
             tone: scene::Tone::new(&device, surface_config.format),
+            targets: targets(&device, [width, height]),
             window,
             device,
             queue,
@@ -64,15 +79,35 @@ impl Drawing {
     }
 
     pub fn resize(&mut self, [width, height]: [u32; 2]) {
-        self.surface_config.width = width.max(1);
-        self.surface_config.height = height.max(1);
-        self.surface.configure(&self.device, &self.surface_config);
+        // A window that is minimised has no size: it keeps the one that it had.
+        if width > 0 && height > 0 {
+            (self.surface_config.width, self.surface_config.height) = (width, height);
+            self.surface.configure(&self.device, &self.surface_config);
+            self.targets = targets(&self.device, [width, height]);
+        }
     }
 
-    pub fn draw(&mut self, params: &SkyParams, [azimuth, elevation]: [f32; 2], seconds: f64) {
+    /// Draws a frame.
+    ///
+    /// # Errors
+    /// The surface or the device is gone; a program would open both anew.
+    pub fn draw(
+        &mut self,
+        params: &SkyParams,
+        [azimuth, elevation]: [f32; 2],
+        seconds: f64,
+    ) -> scene::Result<()> {
+        use wgpu::CurrentSurfaceTexture::{Occluded, Outdated, Suboptimal, Success, Timeout};
         let (device, queue) = (&self.device, &self.queue);
-        let wgpu::CurrentSurfaceTexture::Success(frame) = self.surface.get_current_texture() else {
-            return self.surface.configure(device, &self.surface_config);
+        let frame = match self.surface.get_current_texture() {
+            Success(frame) | Suboptimal(frame) => frame,
+            Outdated => {
+                self.surface.configure(device, &self.surface_config);
+                return Ok(());
+            }
+            // Nobody sees it, or the screen is not ready: the next one will do.
+            Timeout | Occluded => return Ok(()),
+            _ => return Err("the window's surface was lost".into()),
         };
         let size_px = [self.surface_config.width, self.surface_config.height];
         let eye = Vec3::new(0.0, 40.0, 0.0);
@@ -82,8 +117,7 @@ impl Drawing {
         let lens = projection::perspective_infinite_reverse(1.0, aspect, 0.1);
         let camera = Camera::from_matrices(from_world, lens, size_px);
 
-        let (_, radiance) = scene::target(device, scene::RADIANCE, size_px, 1);
-        let (_, depth) = scene::target(device, scene::DEPTH, size_px, 1);
+        let [radiance, depth] = &self.targets;
         let mut encoder = device.create_command_encoder(&Default::default());
         self.sky
             .prepare(queue, &mut encoder, params, &camera, seconds);
@@ -94,8 +128,8 @@ impl Drawing {
             .hills
             .view(device, clip_from_world, eye, &light, shadow);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            color_attachments: &[scene::colour(&radiance, None)],
-            depth_stencil_attachment: scene::far(&depth),
+            color_attachments: &[scene::colour(radiance, None)],
+            depth_stencil_attachment: scene::far(depth),
             ..Default::default()
         });
         self.hills.draw(&mut pass, &seen);
@@ -103,8 +137,10 @@ impl Drawing {
         drop(pass);
         let shown = frame.texture.create_view(&Default::default());
         self.tone
-            .draw(device, &mut encoder, &radiance, &shown, light.exposure);
+            .draw(device, &mut encoder, radiance, &shown, light.exposure);
         queue.submit([encoder.finish()]);
+        self.window.pre_present_notify();
         queue.present(frame);
+        Ok(())
     }
 }

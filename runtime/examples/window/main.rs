@@ -11,7 +11,7 @@ use std::time::Instant;
 use drawing::Drawing;
 use welkin_runtime::{Method, SkyParams};
 use winit::application::ApplicationHandler;
-use winit::event::{DeviceEvent, DeviceId, ElementState, WindowEvent};
+use winit::event::{ElementState, MouseButton, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, EventLoop};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::WindowId;
@@ -23,6 +23,7 @@ struct App {
     /// Azimuth and elevation, in radians.
     view: [f32; 2],
     is_dragged: bool,
+    pointer: [f32; 2],
     start: Instant,
 }
 
@@ -37,13 +38,6 @@ impl ApplicationHandler for App {
         }
     }
 
-    fn device_event(&mut self, _: &ActiveEventLoop, _: DeviceId, event: DeviceEvent) {
-        if let (DeviceEvent::MouseMotion { delta: (x, y) }, true) = (event, self.is_dragged) {
-            self.view[0] -= x as f32 * 2e-3;
-            self.view[1] = (self.view[1] + y as f32 * 2e-3).clamp(-1.5, 1.5);
-        }
-    }
-
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(drawing) = &mut self.drawing else {
             return;
@@ -52,8 +46,18 @@ impl ApplicationHandler for App {
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
             WindowEvent::Resized(size) => drawing.resize(size.into()),
-            WindowEvent::MouseInput { state, .. } => {
-                self.is_dragged = state == ElementState::Pressed;
+            WindowEvent::MouseInput {
+                state,
+                button: MouseButton::Left,
+                ..
+            } => self.is_dragged = state == ElementState::Pressed,
+            WindowEvent::CursorMoved { position, .. } => {
+                let [x, y] = [position.x, position.y].map(|at| at as f32);
+                let [last_x, last_y] = std::mem::replace(&mut self.pointer, [x, y]);
+                if self.is_dragged {
+                    self.view[0] -= (x - last_x) * 2e-3;
+                    self.view[1] = (self.view[1] + (y - last_y) * 2e-3).clamp(-1.5, 1.5);
+                }
             }
             WindowEvent::KeyboardInput { event, .. } if event.state.is_pressed() => {
                 match event.logical_key.as_ref() {
@@ -78,8 +82,14 @@ impl ApplicationHandler for App {
                 }
             }
             WindowEvent::RedrawRequested => {
-                drawing.draw(params, self.view, self.start.elapsed().as_secs_f64());
-                drawing.window.request_redraw();
+                let seconds = self.start.elapsed().as_secs_f64();
+                match drawing.draw(params, self.view, seconds) {
+                    Ok(()) => drawing.window.request_redraw(),
+                    Err(error) => {
+                        self.failure = Some(error);
+                        event_loop.exit();
+                    }
+                }
             }
             _ => {}
         }
@@ -99,6 +109,7 @@ fn main() -> scene::Result<()> {
         },
         view: [2.0, 0.15],
         is_dragged: false,
+        pointer: [0.0; 2],
         start: Instant::now(),
     };
     EventLoop::new()?.run_app(&mut app)?;

@@ -10,7 +10,7 @@ fn root() -> PathBuf {
 /// Every page: those at the top, in docs/, and of each crate.
 fn pages() -> Vec<PathBuf> {
     let root = root();
-    let mut folders = vec![root.clone(), root.join("docs")];
+    let mut folders = vec![root.clone(), root.join("docs"), root.join("docs/engines")];
     for name in ["pack", "baker", "runtime", "controls", "viewer"] {
         folders.push(root.join(name));
     }

@@ -156,6 +156,10 @@ fn a_gpu_is_chosen_by_its_number_and_a_drawn_frame_says_nothing_on_standard_erro
     let draw = |gpu: &[&str]| {
         let mut command = view(&["render", "--size", "16x16", "-o"]);
         command.arg(&frame).arg(pack()).args(gpu);
+        // As on a server that nobody has logged in to.
+        command
+            .env_remove("NODEVICE_SELECT")
+            .env_remove("XDG_RUNTIME_DIR");
         run(command)
     };
     let plain = draw(&[]);

@@ -20,7 +20,7 @@
 //! shade. Else eight, or sixteen under an overcast: R is what is left of light that is scattered many times, A the height.
 
 use glam::{Vec2, Vec3};
-use welkin_pack::{LayerKind, Texture};
+use welkin_pack::{Image, LayerKind, Texture};
 
 use super::look::look;
 use crate::device::context::{Context, Shader};
@@ -87,18 +87,47 @@ pub const RELIEF: f32 = 0.25;
 pub const RELIEF_FULL: f32 = 4.0;
 pub const EVENED_RELIEF: f32 = 0.7;
 
-/// Standard deviations of the ranks of fibres and of lumps, as coarse as a layer of cirrus reads them; `layers` is the pack's texture.
+/// Standard deviations of the ranks of fibres and of lumps, as coarse and as smooth as a layer of cirrus reads them; `layers` is the pack's texture.
 pub fn spreads(layers: &Texture) -> Vec2 {
-    let levels = [
-        (LayerKind::Cirrus, FIBRE_LEVEL),
-        (LayerKind::Cumulus, look(LayerKind::Cirrus).second_level),
-    ];
-    let spread = |(kind, level): (LayerKind, f32)| {
+    let image = |kind: LayerKind, level: f32| {
         let level = (level as usize).min(layers.levels.len() - 1);
-        let (_, spread) = layers.image(level, kind as u32).mean_and_spread(3);
-        spread.max(1.0 / 255.0)
+        layers.image(level, kind as u32)
     };
-    Vec2::from(levels.map(spread))
+    let fibres = splined_spread(&image(LayerKind::Cirrus, FIBRE_LEVEL));
+    let second_level = look(LayerKind::Cirrus).second_level;
+    let (_, lumps) = image(LayerKind::Cumulus, second_level).mean_and_spread(RANK);
+    Vec2::new(fibres, lumps).max(Vec2::splat(1.0 / 255.0))
+}
+
+/// The channel of the rank.
+const RANK: usize = 3;
+
+/// Standard deviation of the ranks of a tile between whose texels the cubic B-spline lies, over four places a texel.
+fn splined_spread(image: &Image) -> f32 {
+    let side = image.width as usize;
+    // Weights of four texels, at a quarter between the middle two and at three.
+    let near = [27.0, 235.0, 121.0, 1.0].map(|share| share / 384.0);
+    let weights = [near, [near[3], near[2], near[1], near[0]]];
+    let rank = |x: usize, y: usize| {
+        let texel = (y % side) * side + x % side;
+        f64::from(image.texels[texel * image.channels + RANK])
+    };
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for texel in 0..side * side {
+        for (across, down) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let row = |y: usize| -> f64 {
+                let texels = (0..4).zip(weights[across]);
+                texels.map(|(x, w)| w * rank(texel % side + x, y)).sum()
+            };
+            let rows = (0..4).zip(weights[down]);
+            let value: f64 = rows.map(|(y, w)| w * row(texel / side + y)).sum();
+            sum += value;
+            squares += value * value;
+        }
+    }
+    let count = 4.0 * (side * side) as f64;
+    let mean = sum / count;
+    (squares / count - mean * mean).max(0.0).sqrt() as f32
 }
 
 /// The pass on a device.

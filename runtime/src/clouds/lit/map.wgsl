@@ -20,10 +20,31 @@ fn lit_bent(uv: vec2f) -> vec2f {
     return vec2f(uv.x + LIT_BENDS.z * cloud_wave(v + 0.32) + LIT_BENDS.w * cloud_wave(3.0 * v), v);
 }
 
+// Fibres by the cubic B-spline, of which two texels each way are one linear read: between coarse texels a linear one leaves stairs along the bends.
+fn lit_fibres(uv: vec2f, level: f32) -> vec4f {
+    let whole = min(u32(level), textureNumLevels(layers_texture) - 1u);
+    let size = f32(textureDimensions(layers_texture, whole).x);
+    let place = uv * size - 0.5;
+    let f = fract(place);
+    let g = 1.0 - f;
+    let last = f * f * f / 6.0;
+    let first = g * g * g / 6.0;
+    let upper = last + (4.0 - 3.0 * g * g * (1.0 + f)) / 6.0;
+    let low = (floor(place) - 0.5 + (1.0 - first / (1.0 - upper))) / size;
+    let high = (floor(place) + 1.5 + last / upper) / size;
+    let north = mix(lit_fibre(low, level), lit_fibre(vec2f(high.x, low.y), level), upper.x);
+    let south = mix(lit_fibre(vec2f(low.x, high.y), level), lit_fibre(high, level), upper.x);
+    return mix(north, south, upper.y);
+}
+
+fn lit_fibre(uv: vec2f, level: f32) -> vec4f {
+    return textureSampleLevel(layers_texture, repeat_sampler, uv, LIT_CIRRUS, level);
+}
+
 // The first read of a layer.
 fn lit_first(kind: i32, uv: vec2f, level: f32) -> vec4f {
     if kind == LIT_CIRRUS {
-        return textureSampleLevel(layers_texture, repeat_sampler, 2.0 * lit_bent(uv), kind, level + LIT_FIBRE_LEVEL);
+        return lit_fibres(2.0 * lit_bent(uv), level + LIT_FIBRE_LEVEL);
     }
     return textureSampleLevel(layers_texture, repeat_sampler, uv, kind, level);
 }
