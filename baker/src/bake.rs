@@ -10,7 +10,9 @@ use crate::error::BakeError;
 use crate::inputs::{Inputs, Reader};
 use crate::notice::Notice;
 use crate::settings::{FieldSettings, Resolved, SkyboxSettings, SpritesSettings};
-use crate::{fbm, field, flares, galaxy, layers, octaves, sky, skybox, sprites, stars, sun};
+use crate::{
+    catalogued, fbm, field, flares, galaxy, layers, octaves, sky, skybox, sprites, stars, sun,
+};
 
 /// How far a bake is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,10 +33,23 @@ pub(crate) const BAKER: &str = concat!("welkin ", env!("CARGO_PKG_VERSION"));
 /// Called before each step, with each notice and at the end; [`ControlFlow::Break`] cancels the bake.
 type OnProgress<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
 
-/// The steps that [`sources`] takes, in order; the last one only if there is a skybox.
-const STEPS: [&str; 14] = [
-    "photo", "noise", "detail", "gradient", "stars", "galaxy", "sky", "sun", "octaves", "fbm",
-    "flares", "layers", "sprites", "skybox",
+/// The steps that [`sources`] takes, in order; the last two only if there is a skybox or a catalogue.
+const STEPS: [&str; 15] = [
+    "photo",
+    "noise",
+    "detail",
+    "gradient",
+    "stars",
+    "galaxy",
+    "sky",
+    "sun",
+    "octaves",
+    "fbm",
+    "flares",
+    "layers",
+    "sprites",
+    "skybox",
+    "catalogue",
 ];
 
 /// Bakes a pack in memory.
@@ -153,13 +168,19 @@ fn look_for_files(resolved: &Resolved, reader: &Reader) -> Result<(), BakeError>
     let photo = photo_source::files(&resolved.clouds.photo);
     let skybox = resolved.skybox.as_ref().map(skybox::files);
     let models = resolved.field.as_ref().map(field::files);
-    let files = photo.into_iter().chain(sprites::files(&resolved.sprites));
+    let catalogue = resolved.stars.catalogue.as_ref().and_then(catalogued::file);
+    let files = photo.into_iter().chain(catalogue);
+    let files = files.chain(sprites::files(&resolved.sprites));
     let mut files = files.chain(skybox.into_iter().chain(models).flatten());
     files.try_for_each(|named| reader.look_for(&named))
 }
 
 fn step_count(resolved: &Resolved) -> u32 {
-    STEPS.len() as u32 - u32::from(resolved.skybox.is_none())
+    let optional = [
+        resolved.skybox.is_none(),
+        resolved.stars.catalogue.is_none(),
+    ];
+    STEPS.len() as u32 - optional.map(u32::from).iter().sum::<u32>()
 }
 
 fn make(resolved: &Resolved, reader: &Reader, steps: &Steps) -> Result<Vec<Source>, BakeError> {
@@ -211,6 +232,15 @@ fn make(resolved: &Resolved, reader: &Reader, steps: &Steps) -> Result<Vec<Sourc
             steps.notice(STEPS[13], 13, Notice::SkyboxClipped(clipped))?;
         }
         sources.push(source(Role::Skybox, Format::Rgba16Float, faces));
+    }
+    if let Some(catalogue) = &resolved.stars.catalogue {
+        let done = step_count(resolved) - 1;
+        step(STEPS[14], done)?;
+        let (layers, notice) = catalogued::images(catalogue, reader, seed)?;
+        if let Some(notice) = notice {
+            steps.notice(STEPS[14], done, notice)?;
+        }
+        sources.push(source(Role::Catalogue, Format::Rgba8Unorm, layers));
     }
     Ok(sources)
 }

@@ -7,6 +7,8 @@ use std::io;
 use welkin_pack::check::Finding;
 use welkin_pack::{PackError, shown};
 
+use crate::catalogue::CatalogueError;
+
 /// Why a recipe was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -115,6 +117,9 @@ pub enum BakeError {
         /// As it should be.
         expected: String,
     },
+    /// A catalogue of stars is not fit for use.
+    #[error(transparent)]
+    Catalogue(#[from] CatalogueError),
     /// The field of clouds would be larger than it may be.
     #[error(
         "{key}: the field needs {found} {what}, expected at most {limit}; lower its cover, density or copies, or raise `field.most_sprites`"

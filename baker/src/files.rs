@@ -1,6 +1,6 @@
 //! The files that a recipe names.
 
-use crate::settings::{ModelSource, Resolved, SkyboxPicture, SpriteSource};
+use crate::settings::{CatalogueSource, ModelSource, Resolved, SkyboxPicture, SpriteSource};
 
 impl Resolved {
     /// The files that the recipe names, as it names them: relative paths start from its folder.
@@ -22,6 +22,11 @@ impl Resolved {
             ModelSource::File(file) => Some(file),
             ModelSource::Boxes(_) => None,
         });
+        let catalogue = match &self.stars.catalogue {
+            Some(CatalogueSource::File(file)) => Some(file),
+            Some(CatalogueSource::BuiltIn) | None => None,
+        };
+        let photo = photo.chain(catalogue);
         let files = photo.chain(sprites).chain(skybox).chain(models);
         files.map(String::as_str).collect()
     }
@@ -42,6 +47,8 @@ mod tests {
         let text = "[clouds.photo]\nfile = 'p.png'\n[sprites]\nfile = 's.png'\n[skybox]\nfile = 'b.exr'\n\
              [[field.models]]\nkind = 'congestus'\nfile = 'm.glb'\n";
         assert_eq!(files(text), ["p.png", "s.png", "b.exr", "m.glb"]);
+        assert_eq!(files("[stars]\ncatalogue = 's.csv'\n"), ["s.csv"]);
+        assert!(files("[stars]\ncatalogue = 'built-in'\n").is_empty());
         let faces = "[skybox.faces]\neast = '1'\nwest = '2'\nup = '3'\ndown = '4'\nsouth = '5'\nnorth = '6'\n";
         assert_eq!(files(faces), ["1", "2", "3", "4", "5", "6"]);
         let cells: Vec<String> = (0..16).map(|cell| format!("{cell}.png")).collect();

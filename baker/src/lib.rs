@@ -19,6 +19,7 @@
 
 mod bake;
 pub mod catalogue;
+mod catalogued;
 mod clouds;
 mod error;
 mod fbm;
@@ -49,6 +50,7 @@ mod stream;
 mod sun;
 
 pub use bake::{Progress, bake, bake_from, cloud_field, skybox_faces, sources, sprite_sheet};
+pub use catalogued::BUILT_IN_NAME as BUILT_IN_CATALOGUE;
 pub use clouds::photo::{
     BUILT_IN_NAME as BUILT_IN_PHOTO, PhotoFile, PhotoTile, built_in_photo, photo_channel,
     photo_tile,
@@ -57,14 +59,14 @@ pub use error::{BakeError, Fault, RecipeError};
 pub use field::model::cloud_model;
 pub use inputs::Inputs;
 pub use load::{MAX_FILE_BYTES, TextureFile, decode_texture, read_photo};
-pub use notice::{Clipped, Notice};
+pub use notice::{Clipped, Dropped, Notice};
 pub use rebake::{REBAKE, RebakeError, rebake};
 pub use recipe::{DEFAULT_RECIPE, Recipe};
 pub use settings::{
-    BoxSettings, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound, FieldSettings,
-    FlareSettings, GalaxySettings, GradientSettings, LayerSettings, LayersSettings, ModelSettings,
-    ModelSource, PhotoProjection, PhotoRegion, PhotoSeam, PhotoSettings, PlacedSprite, Resolved,
-    SkySettings, SkyboxPicture, SkyboxSettings, SpriteShape, SpriteSource, SpritesSettings,
-    StarSettings, SunSettings,
+    BoxSettings, CatalogueSource, CloudLayerSettings, CloudSettings, FbmSettings, FieldBound,
+    FieldSettings, FlareSettings, GalaxySettings, GradientSettings, LayerSettings, LayersSettings,
+    ModelSettings, ModelSource, PhotoProjection, PhotoRegion, PhotoSeam, PhotoSettings,
+    PlacedSprite, Resolved, SkySettings, SkyboxPicture, SkyboxSettings, SpriteShape, SpriteSource,
+    SpritesSettings, StarSettings, SunSettings,
 };
 pub use sound::{recipe_key, verify};

@@ -8,6 +8,19 @@ use std::fmt;
 pub enum Notice {
     /// The skybox is brighter than a half float holds, and was cut there.
     SkyboxClipped(Clipped),
+    /// A catalogue has more stars than a pack has room for.
+    StarsDropped(Dropped),
+}
+
+/// Stars that were left out, the faintest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dropped {
+    /// Stars of the catalogue.
+    pub found: usize,
+    /// Those that the pack has.
+    pub kept: usize,
+    /// Magnitude of the faintest that was kept.
+    pub magnitude: f64,
 }
 
 /// The light of a skybox that a half float does not hold: more than 65504 (IEEE 754-2019, binary16).
@@ -31,6 +44,15 @@ impl fmt::Display for Notice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Notice::SkyboxClipped(clipped) => clipped.fmt(f),
+            Notice::StarsDropped(Dropped {
+                found,
+                kept,
+                magnitude,
+            }) => write!(
+                f,
+                "stars.catalogue: of {found} stars the faintest {} were left out, beyond magnitude {magnitude:.2}; a pack has room for {kept}",
+                found - kept
+            ),
         }
     }
 }

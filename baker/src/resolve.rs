@@ -18,8 +18,8 @@ use crate::error::RecipeError;
 use crate::recipe::tables::{Entry, Fractal, Sky};
 use crate::recipe::{Recipe, line_and_column};
 use crate::settings::{
-    CloudSettings, FbmSettings, FlareSettings, GalaxySettings, GradientSettings, Resolved,
-    SkySettings, StarSettings, SunSettings,
+    CatalogueSource, CloudSettings, FbmSettings, FlareSettings, GalaxySettings, GradientSettings,
+    Resolved, SkySettings, StarSettings, SunSettings,
 };
 
 /// Means of photo and of noise. The power that makes the mean sharpens what is thin and digs pits into what is thick: beyond
@@ -201,7 +201,20 @@ impl Recipe {
             // Five magnitudes are a factor of 100: the faintest star then keeps two of 255 steps.
             magnitudes: self.real("stars.magnitudes", &s.magnitudes, 5.0, 0.5, 5.0)?,
             brightest: self.real("stars.brightest", &s.brightest, 0.8, 0.8, 1.0)?,
+            catalogue: self.catalogue(&s.catalogue)?,
         })
+    }
+
+    fn catalogue(&self, entry: &Entry) -> Result<Option<CatalogueSource>, RecipeError> {
+        let Some(value) = entry else { return Ok(None) };
+        match value.get_ref().as_str() {
+            Some("built-in") => Ok(Some(CatalogueSource::BuiltIn)),
+            Some(file) if !file.is_empty() => Ok(Some(CatalogueSource::File(file.to_string()))),
+            _ => {
+                let expected = "\"built-in\", or the path of a catalogue of stars, as text";
+                Err(self.refuse("stars.catalogue", value, expected))
+            }
+        }
     }
 
     fn galaxy(&self) -> Result<GalaxySettings, RecipeError> {

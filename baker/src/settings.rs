@@ -81,6 +81,17 @@ pub struct StarSettings {
     pub magnitudes: f32,
     /// Mean intensity of the brightest star.
     pub brightest: f32,
+    /// The catalogue whose stars are drawn in their place, if there is one.
+    pub catalogue: Option<CatalogueSource>,
+}
+
+/// Where a catalogue of stars comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum CatalogueSource {
+    /// The one of the baker: 5,044 stars to magnitude 6.
+    BuiltIn,
+    /// A file of one of the layouts of [`crate::catalogue`].
+    File(String),
 }
 
 /// The galaxy.

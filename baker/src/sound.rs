@@ -77,6 +77,7 @@ const KEYS: &[(&str, &str, &str)] = &[
     ("", "sprites", "sprites.size"),
     ("skybox-range", "", "skybox.gain"),
     ("", "skybox", "skybox.size"),
+    ("", "catalogue", "stars.catalogue"),
     ("field-boxes", "", "field.models"),
     ("field-rank", "", "field.models"),
     ("field-hours", "", "field.hours"),

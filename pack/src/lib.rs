@@ -60,7 +60,7 @@ pub use role::Role;
 pub use save::{Overwrite, verify_place};
 pub use shown::shown;
 pub use texel::{
-    CloudTexel, FbmTexel, FlareTexel, GalaxyTexel, LayerTexel, OctaveTexel, SkyTexel, SkyboxTexel,
-    SpriteTexel, StarTexel, SunTexel,
+    CatalogueStar, CloudTexel, FbmTexel, FlareTexel, GalaxyTexel, LayerTexel, OctaveTexel,
+    SkyTexel, SkyboxTexel, SpriteTexel, StarTexel, SunTexel,
 };
 pub use texture::Texture;

@@ -56,6 +56,7 @@ fn a_saved_pack_opens_as_it_was() {
     assert_eq!(
         names(&folder),
         [
+            "catalogue.ktx2",
             "clouds.ktx2",
             "fbm.ktx2",
             "field.glb",

@@ -12,6 +12,9 @@ use crate::texture::Texture;
 
 pub use spec::{ChannelSpec, Filter, Mips, RoleSpec, Wrap};
 
+/// What the layers of [`Role::Catalogue`] are called.
+const CATALOGUE_LAYERS: [&str; 3] = ["place", "light", "flicker"];
+
 /// What a texture is for.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
@@ -40,11 +43,13 @@ pub enum Role {
     Sprites,
     /// A picture of a sky around the viewer.
     Skybox,
+    /// Stars of a catalogue, each where it stands.
+    Catalogue,
 }
 
 impl Role {
     /// Every role, in the order in which a manifest lists them.
-    pub const ALL: [Role; 11] = [
+    pub const ALL: [Role; 12] = [
         Role::Clouds,
         Role::Stars,
         Role::Galaxy,
@@ -56,6 +61,7 @@ impl Role {
         Role::Layers,
         Role::Sprites,
         Role::Skybox,
+        Role::Catalogue,
     ];
 
     /// The name used in manifests, recipes and file names.
@@ -72,6 +78,7 @@ impl Role {
             Role::Layers => "layers",
             Role::Sprites => "sprites",
             Role::Skybox => "skybox",
+            Role::Catalogue => "catalogue",
         }
     }
 
@@ -89,18 +96,20 @@ impl Role {
             Role::Layers => &specs::LAYERS,
             Role::Sprites => &specs::SPRITES,
             Role::Skybox => &specs::SKYBOX,
+            Role::Catalogue => &specs::CATALOGUE,
         }
     }
 
     /// Whether a pack may do without it.
     pub const fn is_optional(self) -> bool {
-        matches!(self, Role::Skybox)
+        matches!(self, Role::Skybox | Role::Catalogue)
     }
 
     /// What image `layer` (from 0) of a level is called: a kind of cloud, or what its shape calls it.
     pub fn layer_name(self, layer: u32) -> Option<String> {
         match self {
             Role::Layers => Some(LayerKind::ALL.get(layer as usize)?.name().to_string()),
+            Role::Catalogue => Some(CATALOGUE_LAYERS.get(layer as usize)?.to_string()),
             _ => self.spec().shape.layer_name(layer),
         }
     }

@@ -13,7 +13,7 @@ use crate::mapping::{
 use crate::pack::Pack;
 use crate::role::Role;
 use crate::test_field::field;
-use crate::texel::StarTexel;
+use crate::texel::{CatalogueStar, StarTexel};
 
 /// A stream of numbers in 0..1: a 64-bit linear congruential generator (D. E. Knuth, MMIX), upper bits.
 pub(crate) struct Stream(u64);
@@ -83,6 +83,7 @@ pub(crate) fn sources() -> Vec<Source> {
         source(Role::Layers, layers()),
         source(Role::Sprites, vec![sprites(128)]),
         source(Role::Skybox, (0..6).map(|face| skybox(face, 16)).collect()),
+        source(Role::Catalogue, catalogue(8, 20)),
     ]
 }
 
@@ -121,6 +122,27 @@ pub(crate) fn clouds(size: u32) -> Image {
         }
     }
     image
+}
+
+/// So many stars, each fainter than the one before.
+pub(crate) fn catalogue(size: u32, count: u32) -> Vec<Image> {
+    let mut images = vec![Image::new(size, size, 4); 3];
+    for i in 0..count {
+        let star = CatalogueStar {
+            right_ascension_deg: 17.0 * f64::from(i),
+            declination_deg: 4.0 * f64::from(i) - 40.0,
+            magnitude: 0.2 * f64::from(i),
+            colour_index: 0.05 * f64::from(i),
+            rate: 12 + i as u8,
+            variance: 30,
+            phase: 5 * i as u8,
+        };
+        for (image, bytes) in images.iter_mut().zip(star.encode()) {
+            let texel = image.texel_mut(i % size, i / size);
+            texel.copy_from_slice(&bytes.map(|byte| f32::from(byte) / 255.0));
+        }
+    }
+    images
 }
 
 /// Two waves across each other: four wave vectors.

@@ -3,8 +3,10 @@
 //! Every field is the value a shader reads from a unorm texture, 0..1. The ranges that turn them into
 //! physical units are in [`crate::role`] and in every manifest.
 
+mod catalogue;
 mod layers;
 
+pub use catalogue::CatalogueStar;
 pub use layers::LayerTexel;
 
 use crate::format::Format;

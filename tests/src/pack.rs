@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use welkin_baker::Resolved;
 use welkin_pack::mapping::cube_to_direction;
-use welkin_pack::{Format, Image, LayerKind, Pack, PackInfo, Role, Source};
+use welkin_pack::{CatalogueStar, Format, Image, LayerKind, Pack, PackInfo, Role, Source};
 
 /// The default recipe's pack, baked once a test program.
 ///
@@ -172,6 +172,65 @@ pub fn stars_alone() -> Pack {
         Role::Sky | Role::Galaxy => image.texels.fill(0.0),
         _ => {}
     })
+}
+
+/// The built-in catalogue's own file.
+pub const CATALOGUE: &[u8] = include_bytes!("../../assets-src/stars/stars.6.json");
+
+/// The pack of the recipe of a winter night, baked once a test program.
+///
+/// # Panics
+/// If it cannot be baked: no test can go on without it.
+pub fn catalogued() -> &'static Pack {
+    static PACK: OnceLock<Pack> = OnceLock::new();
+    PACK.get_or_init(|| recipe_pack("winter-night"))
+}
+
+/// The stars of a pack's catalogue in their order.
+pub fn catalogue_records(pack: &Pack) -> Vec<CatalogueStar> {
+    let Some(texture) = pack.texture(Role::Catalogue) else {
+        return Vec::new();
+    };
+    let layers = texture.levels[0].chunks_exact(4 * (texture.width * texture.height) as usize);
+    let layers: Vec<&[u8]> = layers.collect();
+    let texel = |layer: usize, i: usize| std::array::from_fn(|byte| layers[layer][4 * i + byte]);
+    let count = layers[1].chunks_exact(4).filter(|t| t[3] == 255).count();
+    (0..count)
+        .map(|i| CatalogueStar::decode([texel(0, i), texel(1, i), texel(2, i)]))
+        .collect()
+}
+
+/// The pack of a winter night under a black sky, without a galaxy and without flicker; of the stars those of some magnitudes.
+///
+/// # Panics
+/// If that is no pack.
+pub fn catalogue_alone(is_kept: impl Fn(f64) -> bool) -> Pack {
+    let mut sources = sources();
+    for source in &mut sources {
+        if matches!(source.role, Role::Sky | Role::Galaxy) {
+            source.images.iter_mut().for_each(|i| i.texels.fill(0.0));
+        }
+    }
+    let size = 128;
+    let mut images = vec![Image::new(size, size, 4); 3];
+    let stars = catalogue_records(catalogued());
+    let kept = stars.into_iter().filter(|star| is_kept(star.magnitude));
+    for (i, star) in (0..).zip(kept) {
+        let steady = CatalogueStar {
+            variance: 0,
+            ..star
+        };
+        for (image, bytes) in images.iter_mut().zip(steady.encode()) {
+            let texel = image.texel_mut(i % size, i / size);
+            texel.copy_from_slice(&bytes.map(|byte| f32::from(byte) / 255.0));
+        }
+    }
+    sources.push(Source {
+        role: Role::Catalogue,
+        format: Format::Rgba8Unorm,
+        images,
+    });
+    build(None, sources)
 }
 
 /// The default pack without the light of the sky, in a black skybox: a picture shows nothing but what sun or moon make of

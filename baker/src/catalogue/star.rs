@@ -21,11 +21,15 @@ impl Star {
         light_of_magnitude(self.magnitude)
     }
 
-    /// The temperature of a black body of its colour, in kelvin, 2000 to 30000; of a star without one, that of the sun's colour, 0.65.
+    /// Its B-V; of a star without one, that of the sun, 0.65.
+    pub fn shown_colour_index(&self) -> f64 {
+        self.colour_index.unwrap_or(0.65)
+    }
+
+    /// The temperature of a black body of its colour, in kelvin, 2000 to 30000.
     pub fn temperature_k(&self) -> f64 {
         // The bluest stars have -0.4.
-        let colour_index = self.colour_index.unwrap_or(0.65).clamp(-0.4, 4.0);
-        temperature_k(colour_index).clamp(2000.0, 30_000.0)
+        temperature_k(self.shown_colour_index().clamp(-0.4, 4.0)).clamp(2000.0, 30_000.0)
     }
 }
 

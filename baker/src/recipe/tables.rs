@@ -32,7 +32,7 @@ tables! {
     }
     Fractal { cells, octaves, gain, mean }
     Gradient { power }
-    Stars { size, count, magnitudes, brightest }
+    Stars { size, count, magnitudes, brightest, catalogue }
     Galaxy { size, tilt_deg, azimuth_deg, dust }
     Sky { width, height, suns, haze, most_haze }
     Sun { size, noon_elevation_deg }

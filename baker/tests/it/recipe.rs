@@ -369,6 +369,18 @@ fn values_of_the_wrong_type_or_out_of_range_are_told_with_key_and_place() {
         ("stars.count = 2049", "stars.count", "2049", "1 to 2048"),
         ("stars.magnitudes = 6", "stars.magnitudes", "6", "0.5 to 5"),
         (
+            "stars.catalogue = 3",
+            "stars.catalogue",
+            "3",
+            "\"built-in\"",
+        ),
+        (
+            "stars.catalogue = ''",
+            "stars.catalogue",
+            "\"\"",
+            "path of a catalogue",
+        ),
+        (
             "stars.brightest = 0.1",
             "stars.brightest",
             "0.1",

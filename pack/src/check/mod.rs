@@ -4,6 +4,7 @@
 //! on a folder or on files in memory, go on after a broken file, and report every rule with its figure. Rules that lean on
 //! statistics say how often they would blame a sound pack: never more than once in a million.
 
+mod catalogue;
 mod chance;
 mod clouds;
 mod fbm;

@@ -2,7 +2,8 @@
 
 use super::report::Report;
 use super::{
-    clouds, fbm, finite, flares, galaxy, layers, mips, octaves, sky, skybox, sprites, stars, sun,
+    catalogue, clouds, fbm, finite, flares, galaxy, layers, mips, octaves, sky, skybox, sprites,
+    stars, sun,
 };
 use crate::manifest::{Manifest, TextureEntry};
 use crate::role::Role;
@@ -42,5 +43,6 @@ pub(super) fn check_role(report: &mut Report, role: Role, texture: &Texture, cla
         Role::Layers => layers::check(report, texture),
         Role::Sprites => sprites::check(report, texture),
         Role::Skybox => skybox::check(report, texture),
+        Role::Catalogue => catalogue::check(report, texture),
     }
 }

@@ -50,7 +50,7 @@ macro_rules! rules {
 rules! {
     SEAL = error("seal", "The manifest is the one that the baker wrote.");
     MANIFEST = error("manifest", "Every entry of the manifest names what its role asks: file, format, shape, channels.");
-    ROLES = error("roles", "Every role has a texture, but for `skybox`.");
+    ROLES = error("roles", "Every role has a texture, but for `skybox` and `catalogue`.");
     FILE_HASH = error("file-hash", "Every file has the size and the hash that the manifest gives.");
     CONTAINER = error("container", "Every file is a KTX2 file that decodes whole.");
     LAYOUT = error("layout", "Format, shape, size and levels of a file are those of the manifest and of the role.");
@@ -117,6 +117,9 @@ rules! {
     SKYBOX_RANGE = error("skybox-range", "Radiance is finite and not negative, and the cover between 0 and 1.");
     SKYBOX_SEAM = warning("skybox-seam", "Across the 12 edges of the cube the picture changes no more than beside them.");
     SKYBOX_CLIP = warning("skybox-clip", "No texel of the skybox is as bright as a half float can be: light was cut there.");
+    CATALOGUE_RECORD = error("catalogue-record", "Every star of the catalogue is marked as one, there is one at least, and nothing follows them.");
+    CATALOGUE_ORDER = error("catalogue-order", "No star of the catalogue is brighter than the one before it.");
+    CATALOGUE_FLICKER = error("catalogue-flicker", "Every star of the catalogue flickers, and none faster or slower than stars do.");
     FIELD_FILE = error("field-file", "The field of clouds is a glTF file as the format describes it, with the counts of the manifest.");
     FIELD_RANGE = error("field-range", "Every number of the field is finite and in its range.");
     FIELD_INDEX = error("field-index", "Every sprite names a picture of the sheet and a box of its cloud, and every box a shading group.");

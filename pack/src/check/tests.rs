@@ -1,5 +1,6 @@
 //! Plants one fault at a time and sees that its rule, and no other error, fires.
 
+mod catalogue;
 mod field;
 mod forgeries;
 mod layers;
@@ -95,6 +96,7 @@ fn every_rule_has_a_test_here_and_a_place_in_the_documentation() {
     // Without white space, so that the formatter may break lines where it likes.
     let tests = concat!(
         include_str!("tests.rs"),
+        include_str!("tests/catalogue.rs"),
         include_str!("tests/field.rs"),
         include_str!("tests/forgeries.rs"),
         include_str!("tests/layers.rs"),
@@ -170,6 +172,7 @@ fn a_missing_role_is_an_error_unless_it_is_optional() {
     let without = |role| check_with_manifest(true, |m| m.textures.retain(|t| t.role != role));
     assert_eq!(errors(&without(Role::Sun)), ["roles"]);
     assert_eq!(errors(&without(Role::Skybox)), Vec::<&str>::new());
+    assert_eq!(errors(&without(Role::Catalogue)), Vec::<&str>::new());
 }
 
 #[test]

@@ -238,6 +238,36 @@ pub(super) const SPRITES: RoleSpec = RoleSpec {
     ..TILE
 };
 
+pub(super) const CATALOGUE: RoleSpec = RoleSpec {
+    shape: Shape::Array,
+    size: [128, 128],
+    sides: [8, 256],
+    // Place, light, flicker.
+    layers: [3, 3],
+    mips: Mips::One,
+    wrap: Wrap::Clamp,
+    filter: Filter::Nearest,
+    channels: &[
+        share(
+            "first",
+            "right ascension in turns, coarse; magnitude, coarse; flicker rate in 255ths of 255/64 Hz",
+        ),
+        share(
+            "second",
+            "right ascension, fine; magnitude, fine; flicker amplitude in the zenith as a share of the light",
+        ),
+        share(
+            "third",
+            "declination from pole to pole, coarse; B-V; place in the flicker cycle at time 0",
+        ),
+        share(
+            "fourth",
+            "declination, fine; 1 where there is a star; nothing",
+        ),
+    ],
+    ..TILE
+};
+
 pub(super) const SKYBOX: RoleSpec = RoleSpec {
     formats: &[Format::Rgba16Float],
     shape: Shape::Cube,

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use welkin_pack::Pack;
-use welkin_tests::pack::{default_pack, recipe_pack};
+use welkin_tests::pack::{catalogued, default_pack, recipe_pack};
 
 /// If this fails and bytes were meant to change: bump the baker's version, run with WELKIN_BLESS=1, look at the
 /// pictures, and say in CHANGELOG.md why.
@@ -35,4 +35,9 @@ fn the_default_pack_has_its_golden_bytes() {
 #[test]
 fn the_pack_with_a_skybox_has_its_golden_bytes() {
     assert_golden("skybox", &recipe_pack("skybox"));
+}
+
+#[test]
+fn the_pack_with_a_catalogue_has_its_golden_bytes() {
+    assert_golden("winter-night", catalogued());
 }
