@@ -1,5 +1,6 @@
 //! A frame's uniforms, a struct a pass. `sky/evaluate.rs` computes them.
 
+use crate::clear_sky::catalogue::CatalogueUniforms;
 use crate::clear_sky::flares::FlareUniforms;
 use crate::clear_sky::galaxy::GalaxyUniforms;
 use crate::clear_sky::ground::GroundUniforms;
@@ -63,6 +64,8 @@ uniforms! {
         moon: MoonUniforms,
         /// Stars.
         stars: StarUniforms,
+        /// Stars of a catalogue.
+        catalogue: CatalogueUniforms,
         /// The planets.
         planets: PlanetUniforms,
         /// Galaxy.

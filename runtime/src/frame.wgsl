@@ -16,6 +16,7 @@ override DOME_MESH: bool = false;
 @group(0) @binding(7) var sun_texture: texture_2d<f32>;
 @group(0) @binding(8) var flares_texture: texture_2d<f32>;
 @group(0) @binding(9) var skybox_texture: texture_cube<f32>;
+@group(0) @binding(10) var catalogue_texture: texture_2d<f32>;
 
 // What a method adds: to the dome its map; to an off-screen pass the texture that it reads.
 @group(1) @binding(0) var map_texture: texture_2d<f32>;

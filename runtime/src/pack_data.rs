@@ -6,6 +6,7 @@ use welkin_pack::field::Hour;
 use welkin_pack::mapping::{direction_from_angles, direction_to_galaxy_uv};
 use welkin_pack::{Pack, Role, StarTexel, Texture};
 
+use crate::clear_sky::catalogue::Catalogue;
 use crate::clear_sky::light::LitSky;
 use crate::clear_sky::moment::{Lighting, Moment};
 use crate::clear_sky::table::SkyTable;
@@ -46,6 +47,8 @@ pub struct PackData {
     pub stars: u32,
     /// What a step of each of their levels stands for: [`StarTexel::level_units`].
     pub star_units: Vec<f32>,
+    /// The stars of a catalogue, if there is one.
+    pub catalogue: Option<Catalogue>,
     /// The line along which the galaxy's band crosses the rim of its dome: east and south, a unit vector.
     pub galaxy_node: Vec2,
     /// Texels a side and levels of the sun.
@@ -90,6 +93,7 @@ impl PackData {
             cirrus_spreads: lit::map::spreads(texture(pack, Role::Layers)?),
             stars: texture(pack, Role::Stars)?.width,
             star_units: StarTexel::level_units(texture(pack, Role::Stars)?),
+            catalogue: pack.texture(Role::Catalogue).map(Catalogue::new),
             galaxy_node: galaxy_node(texture(pack, Role::Galaxy)?),
             sun: side(texture(pack, Role::Sun)?),
             flares: texture(pack, Role::Flares)?.width,

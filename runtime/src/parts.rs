@@ -2,7 +2,9 @@
 
 #[cfg(feature = "perez")]
 use crate::clear_sky::perez;
-use crate::clear_sky::{flares, galaxy, ground, light, moon, planets, skybox, stars, sun, table};
+use crate::clear_sky::{
+    catalogue, flares, galaxy, ground, light, moon, planets, skybox, stars, sun, table,
+};
 use crate::clouds::shared;
 use crate::device::context::Dome;
 use crate::device::map;
@@ -16,7 +18,7 @@ use crate::weather::{self, lightning, rain, rainbow, rays};
 use crate::{frame, tonemap};
 
 /// What every dome needs.
-const COMMON: [Part; 17] = [
+const COMMON: [Part; 18] = [
     frame::PART,
     camera::PART,
     dome::PART,
@@ -26,6 +28,7 @@ const COMMON: [Part; 17] = [
     sun::PART,
     moon::PART,
     stars::PART,
+    catalogue::PART,
     galaxy::PART,
     planets::PART,
     skybox::PART,
@@ -144,6 +147,8 @@ mod tests {
                             output,
                             reversed_depth,
                             skybox,
+                            // Each alone and both together are parsed as well as neither.
+                            catalogue: skybox != (sky == SkyModel::Table),
                         };
                         for shading in Shading::ALL {
                             let dome = Dome {

@@ -6,6 +6,7 @@
 //! `METHOD_pack.rs` here; `clouds.rs` is `clouds/shared.wgsl`, `sky.rs` is `gradient.wgsl`, `renderer.rs` is `sky/sky.wgsl`.
 
 pub mod camera;
+pub mod catalogue;
 pub mod clouds;
 pub mod compare;
 pub mod dome;

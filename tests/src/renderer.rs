@@ -14,8 +14,8 @@ use crate::skybox::{self, Skybox};
 use crate::stars::Seen;
 use crate::texture::{Texture, smoothstep};
 use crate::{
-    camera, fbm_map, fbm_pack, flares, galaxy, lightning, lit, lit_map, map, methods, moon,
-    octaves_map, packed_map, planets, rain, sky, stars, sun,
+    camera, catalogue, fbm_map, fbm_pack, flares, galaxy, lightning, lit, lit_map, map, methods,
+    moon, octaves_map, packed_map, planets, rain, sky, stars, sun,
 };
 
 /// A texture unit may filter 8-bit texels in 8 bits (Mesa's software does; Vulkan asks for no more), which makes a
@@ -54,6 +54,8 @@ pub struct Frame<'a> {
     /// The states of the octaves, if the method has them.
     states: Vec<f32>,
     seconds: f64,
+    /// The stars of the catalogue, if the pack has one.
+    catalogue: Option<catalogue::Stars>,
 }
 
 impl<'a> Twin<'a> {
@@ -103,7 +105,21 @@ impl<'a> Twin<'a> {
                 Method::Packed | Method::Fbm | Method::Lit | Method::Sprites => Vec::new(),
             },
             seconds,
+            catalogue: self.catalogue(params, view, seconds, &uniforms),
         }
+    }
+
+    fn catalogue(
+        &self,
+        params: &SkyParams,
+        view: &Camera,
+        seconds: f64,
+        uniforms: &Uniforms,
+    ) -> Option<catalogue::Stars> {
+        let clamped = params.clamped();
+        let lit = self.facts.lit_sky(&clamped, seconds);
+        let night = self.facts.night_sky(&lit, &clamped, view, seconds)?;
+        Some(catalogue::Stars::new(self.pack, &night, uniforms))
     }
 
     /// A frame with its map.
@@ -385,11 +401,16 @@ impl Frame<'_> {
                 galaxy += (other - galaxy) * share;
             }
             let seen = Seen { direction, pixel };
-            let stars = stars::radiance(uniforms, twin.pack, seen, own, self.seconds, galaxy);
             let planets = planets::radiance(uniforms, direction, pixel);
-            radiance += (uniforms.galaxy.radiance * galaxy + stars + planets)
-                * (smoothstep(0.0, EXTINCTION, direction.y)
-                    * (1.0 - moon::seen(uniforms, direction, 1.0).w));
+            let mut night = uniforms.galaxy.radiance * galaxy + planets;
+            if self.catalogue.is_none() {
+                night += stars::radiance(uniforms, twin.pack, seen, own, self.seconds, galaxy);
+            }
+            night *= smoothstep(0.0, EXTINCTION, direction.y);
+            if let Some(catalogue) = &self.catalogue {
+                night += catalogue.radiance(uniforms, direction, pixel);
+            }
+            radiance += night * (1.0 - moon::seen(uniforms, direction, 1.0).w);
         }
         if let Some(skybox) = &twin.skybox {
             radiance = skybox::mix(&uniforms.skybox, skybox, radiance, direction);

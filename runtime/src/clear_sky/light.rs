@@ -17,6 +17,8 @@ use glam::Vec3;
 use welkin_pack::air::{Colour, SUN_ILLUMINANCE_LX, sun_transmittance, unit_luminance_cd_m2};
 use welkin_pack::mapping;
 
+use crate::clear_sky::eclipse::DUSK_SINE;
+pub use crate::clear_sky::eclipse::SUN_RADIUS_RAD;
 use crate::clear_sky::moment::{Hour, Moment};
 use crate::clear_sky::table::{SkyTable, SkyView};
 use crate::geometry::math::{LUMINANCE, luminance, smoothstep};
@@ -33,8 +35,6 @@ pub const PART: Part = Part {
 const CLOUD_DIP_RAD: f32 = 0.025;
 /// Share of the aerosol that is above them, with a scale height of 1.2 km.
 const AEROSOL_ABOVE_CLOUDS: f32 = 0.19;
-/// Half the sun's angular diameter, in radians: 0.2666 degrees at its mean distance.
-pub const SUN_RADIUS_RAD: f32 = 0.004_653;
 
 /// Light at one moment. Colours are linear BT.709, in the unit of the hour.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -61,6 +61,8 @@ pub struct Light {
     pub skylight: Vec3,
     /// Irradiance of a horizontal plane by the clear sky, over pi.
     pub sky_on_ground: Vec3,
+    /// The share of the sun's light that the moon covers.
+    pub eclipsed: f32,
     /// Share of the night sky that shows, 0 by day.
     pub night: f32,
     /// Share of stars and Milky Way that moonlight leaves to be seen.
@@ -106,10 +108,12 @@ impl LitSky {
     pub fn new(table: &SkyTable, moment: &Moment, haze: f32, moon: f32) -> LitSky {
         let sun = moment.sun;
         let elevation_rad = sun.y.clamp(-1.0, 1.0).asin();
-        let unit_cd_m2 = unit_luminance_cd_m2(elevation_rad);
+        let eclipse = Eclipse::new(moment);
+        let unit_cd_m2 = eclipse.unit_cd_m2;
+        let left = 1.0 - eclipse.covered;
         let depth = table.aerosol_depth(haze);
-        let night = mapping::night_share(sun.y);
-        let mut view = table.view(elevation_rad, haze);
+        let night = mapping::night_share(sun.y).max(eclipse.night);
+        let mut view = eclipse.view(table, elevation_rad, haze);
         let strength = moon * moment.moonlight;
         let risen = smoothstep(MOON_RISES[0], MOON_RISES[1], moment.moon.y);
         let mut light = Light {
@@ -119,11 +123,12 @@ impl LitSky {
             moonlight: strength * risen,
             sky_direction: sun,
             hours: moment.hours,
-            sunlight: cloud_sunlight(elevation_rad, depth, unit_cd_m2),
-            ground_sunlight: ground_sunlight(elevation_rad, depth, unit_cd_m2),
+            sunlight: cloud_sunlight(elevation_rad, depth, unit_cd_m2) * left,
+            ground_sunlight: ground_sunlight(elevation_rad, depth, unit_cd_m2) * left,
             disc: sunlight(elevation_rad, depth, unit_cd_m2),
             skylight: Vec3::ZERO,
             sky_on_ground: Vec3::ZERO,
+            eclipsed: eclipse.covered,
             night,
             dark: 1.0,
             unit_cd_m2,
@@ -183,6 +188,63 @@ impl LitSky {
             view,
             moon: disc,
         }
+    }
+}
+
+/// What an eclipse leaves of daylight. Eyes get used to what there is of it, as they do to that of an hour ([`unit_luminance_cd_m2`]): in the end to that of the dusk
+/// which totality is.
+struct Eclipse {
+    /// The share of the sun's light that is covered; 0 where there is no eclipse.
+    covered: f32,
+    /// What a radiance of 1 stands for.
+    unit_cd_m2: f32,
+    /// Share of the night sky that shows.
+    night: f32,
+}
+
+impl Eclipse {
+    fn new(moment: &Moment) -> Eclipse {
+        let unit = unit_luminance_cd_m2(moment.sun.y.clamp(-1.0, 1.0).asin());
+        let covered = match moment.sun.y > DUSK_SINE {
+            true => moment.eclipsed,
+            false => 0.0,
+        };
+        if covered <= 0.0 {
+            return Eclipse {
+                covered: 0.0,
+                unit_cd_m2: unit,
+                night: 0.0,
+            };
+        }
+        // A unit is the light to 2/3.
+        let totality = (unit_luminance_cd_m2(DUSK_SINE.asin()) / unit).powf(1.5);
+        let light = 1.0 - covered + covered * totality;
+        let share_of_dusk = covered * totality / light;
+        Eclipse {
+            covered,
+            unit_cd_m2: unit * light.powf(2.0 / 3.0),
+            // Nothing before the last light goes.
+            night: mapping::night_share(DUSK_SINE) * smoothstep(0.02, 1.0, share_of_dusk),
+        }
+    }
+
+    /// The clear sky: what is left of the hour's, and the dusk of totality, which is around the horizon.
+    fn view(&self, table: &SkyTable, elevation_rad: f32, haze: f32) -> SkyView {
+        let view = table.view(elevation_rad, haze);
+        if self.covered <= 0.0 {
+            return view;
+        }
+        let dusk_rad = DUSK_SINE.asin();
+        let share = |covered: f32, elevation_rad: f32| {
+            Vec3::splat(covered * unit_luminance_cd_m2(elevation_rad) / self.unit_cd_m2)
+        };
+        let mut dusk = table
+            .view(dusk_rad, haze)
+            .scaled(share(self.covered, dusk_rad));
+        dusk.level(1.0);
+        let mut seen = view.scaled(share(1.0 - self.covered, elevation_rad));
+        seen.add(&dusk);
+        seen
     }
 }
 
@@ -246,7 +308,7 @@ const EARTHLIGHT: f32 = 0.036;
 const FULL_MOON_LX: f32 = 0.32;
 
 /// What eyes lose of colour by moonlight, which they see half by their rods; how much is chosen.
-const NIGHT_GREY: f32 = 0.45;
+pub(crate) const NIGHT_GREY: f32 = 0.45;
 
 /// How much of stars and Milky Way a full moon hides: nearly all of them to an eye, and what a picture of both shows is chosen.
 const MOON_HIDES: f32 = 0.85;

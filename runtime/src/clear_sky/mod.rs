@@ -1,7 +1,12 @@
 //! The sky without clouds, by day and by night.
 
+pub mod catalogue;
+pub(crate) mod catalogue_texture;
+pub mod cells;
 #[cfg(feature = "perez")]
 pub mod cie;
+pub mod eclipse;
+pub mod eye;
 pub mod flares;
 pub mod galaxy;
 pub mod ground;
@@ -13,6 +18,7 @@ pub mod perez;
 pub mod picture;
 pub mod planets;
 pub mod skybox;
+pub mod spread;
 pub mod stars;
 pub mod sun;
 pub mod table;

@@ -5,6 +5,7 @@ use welkin_pack::mapping;
 
 use crate::almanac::refraction::lifted;
 use crate::almanac::{Date, Place, moon, sun};
+use crate::clear_sky::eclipse::{SUN_RADIUS_RAD, covered};
 use crate::geometry::math::smoothstep;
 
 /// Where sun and moon stand, as they are seen through the air.
@@ -18,6 +19,8 @@ pub struct Moment {
     pub moonlight: f32,
     /// Times of day, 0 to 1, for what knows no other sun than the pack's, and the weight of each.
     pub hours: [Hour; 2],
+    /// The share of the sun's light that the moon covers, 0 to 1.
+    pub eclipsed: f32,
     /// What else a date tells of the moon.
     pub disc: Option<MoonDisc>,
 }
@@ -57,6 +60,7 @@ impl Moment {
             moon: -sun,
             moonlight: 1.0,
             hours: [Hour { time, weight: 1.0 }, Hour::default()],
+            eclipsed: 0.0,
             disc: None,
         }
     }
@@ -64,8 +68,10 @@ impl Moment {
     /// The sky of a date and place. Its hours are those at which the pack's sun stands as high, or highest where it never does; morning goes
     /// over to evening as the sun goes from east to west.
     pub fn of_date(date: Date, place: Place, noon_elevation_rad: f32) -> Moment {
-        let sun = lifted(sun::direction(date, place)).as_vec3();
+        let airless_sun = sun::direction(date, place);
+        let sun = lifted(airless_sun).as_vec3();
         let moon = moon::seen(date, place);
+        let radii_rad = [f64::from(SUN_RADIUS_RAD), moon.radius_rad()];
         let highest = libm::sinf(noon_elevation_rad).max(1e-3);
         let turn = libm::acosf((sun.y / highest).clamp(-1.0, 1.0)) / std::f32::consts::TAU;
         let morning = smoothstep(-NOON, NOON, sun.x);
@@ -73,6 +79,7 @@ impl Moment {
             sun,
             moon: lifted(moon.direction).as_vec3(),
             moonlight: moon.light() as f32,
+            eclipsed: covered(airless_sun, moon.direction, radii_rad) as f32,
             disc: Some(MoonDisc {
                 sunwards: moon.sunwards.as_vec3(),
                 radius_rad: moon.radius_rad() as f32,

@@ -8,7 +8,7 @@
 //!
 //! Where the sun does not shine, the earth does, the less the fuller the moon is: see `EARTHLIGHT` in `light.rs`.
 //!
-//! The moon is before the sun and the stars: what its disc covers does not shine. So an eclipse of the sun comes of itself; the daylight of one does not grow less.
+//! The moon is before the sun and the stars: what its disc covers does not shine. So an eclipse of the sun comes of itself; what it leaves of daylight is in `eclipse.rs`.
 //!
 //! # Practice
 //! A comparison a pixel. A sky by the plain time has the full moon that `sun.rs` draws.

@@ -29,7 +29,7 @@
 //! One texture read a pixel at night, the rest only where there is a star (about one pixel in 40). Where a texel is too
 //! narrow, about a dozen.
 
-use glam::{Vec2, Vec3};
+use glam::{DMat3, Vec2, Vec3};
 use welkin_pack::StarTexel;
 use welkin_pack::mapping::{STAR_TILE_SIDE, STAR_TILE_START};
 
@@ -100,7 +100,11 @@ pub struct Stand {
 impl Stand {
     /// At a date and place. `node` is that of the galaxy, on its own dome.
     pub fn of_date(date: Date, place: Place, node: Vec2) -> Stand {
-        let turn = stars::turn(date, place);
+        Stand::of_turn(stars::turn(date, place), node)
+    }
+
+    /// The same of a turn from the equator of J2000 to the world.
+    pub fn of_turn(turn: DMat3, node: Vec2) -> Stand {
         // Its zenith is the pole, its north right ascension 0.
         let axes = [-turn.y_axis, turn.z_axis, -turn.x_axis];
         Stand {

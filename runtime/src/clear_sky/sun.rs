@@ -13,6 +13,8 @@
 //! large as the pixel and as much dimmer, so that its light stays the same. A display, which shows no light beyond some times white, gets no more of it: so the pixels of its edge, which
 //! it covers in part, are as bright as their part, and the disc is round.
 //!
+//! In a total eclipse the corona is around the moon's disc: a soft ring without rays.
+//!
 //! # Practice
 //! One texture read, only inside the square; a root within 25 degrees. By day it is some 60,000 times as bright as white: what is below 65504 at every hour fits half
 //! floats.
@@ -21,6 +23,7 @@ use glam::Vec3;
 
 use crate::clear_sky::light::{Light, SUN_RADIUS_RAD};
 use crate::geometry::camera::Rays;
+use crate::geometry::math::smoothstep;
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
 
@@ -30,6 +33,7 @@ pub const PART: Part = Part {
         ("SUN_HORIZON", Value::F32(HORIZON)),
         ("SUN_GLARE_CORE", Value::F32(GLARE_CORE)),
         ("SUN_GLARE_END", Value::F32(GLARE_END)),
+        ("SUN_CORONA_END", Value::F32(CORONA_END)),
     ],
     structs: &[SunUniforms::WGSL],
     wgsl: include_str!("sun.wgsl"),
@@ -52,6 +56,10 @@ uniforms! {
         brightest: f32,
         /// What the lens scatters, over the inverse cube of the angle in radians.
         glare: Vec3,
+        /// 1 if the corona is seen.
+        has_corona: f32,
+        /// Radiance that the corona's profile is multiplied by.
+        corona: Vec3,
         /// Nothing.
         _pad: f32,
     }
@@ -80,6 +88,20 @@ const BRIGHTEST: f32 = 12.0;
 /// Beyond what a target of radiance holds.
 const NO_DISPLAY: f32 = 1e9;
 
+/// Shares of the sun's light that the moon covers between which the corona comes out: before, the rest outshines it.
+const CORONA_COVERED: [f32; 2] = [0.98, 1.0];
+/// The share of the sun's light at whose end its disc fades.
+const LAST_LIGHT: f32 = 0.01;
+/// The corona's radiance over the disc's mean, at r radii of the sun from its middle: `1e-6 (2.565 r^-17 + 1.425 r^-7 + 0.0532 r^-2.5)`.
+///
+/// S. Baumbach, "Strahlung, Ergiebigkeit und Elektronendichte der Sonnenkorona", Astronomische Nachrichten 263, 1937, as C. W. Allen, "Astrophysical
+/// Quantities", has it.
+const CORONA: f32 = 1e-6;
+/// Where it ends, in radii of the sun, and what it is there: that is taken off everywhere.
+const CORONA_REACH: f32 = 8.0;
+/// See [`CORONA_REACH`].
+pub const CORONA_END: f32 = 2.945_7e-4;
+
 /// The sun's share of the uniforms. `texels` is the side of the texture, `pixel_rad` that of a pixel; `shown` is
 /// whether it is drawn at all, `exposure` that of a display, which has a lens. A target of radiance has none.
 pub fn uniforms(
@@ -100,6 +122,9 @@ pub fn uniforms(
         .log2()
         .clamp(0.0, levels.saturating_sub(1) as f32);
     let (right, up) = facing_axes(light.sun_direction, rays);
+    let corona = smoothstep(CORONA_COVERED[0], CORONA_COVERED[1], light.eclipsed);
+    // A pixel at the moon's edge is covered in part, and must not show a sun that is all behind it.
+    let left = ((1.0 - light.eclipsed) / LAST_LIGHT).min(1.0);
     let is_shown = shown && light.sun_direction.y > -2.0 * SUN_RADIUS_RAD;
     // What lights the ground is the radiance of a white surface, E / pi. The horizon hides the disc itself.
     SunUniforms {
@@ -107,13 +132,15 @@ pub fn uniforms(
         least_cosine: if is_shown {
             // The corners of the square, which lie beyond the glare where pixels are large.
             let corner = (1.0 - 2.0 * half_side * half_side).max(0.0).sqrt();
-            corner.min(if lens { GLARE_END_COSINE } else { 1.0 })
+            let corner = corner.min(if lens { GLARE_END_COSINE } else { 1.0 });
+            let corona_rad = CORONA_REACH * SUN_RADIUS_RAD;
+            corner.min(if corona > 0.0 { corona_rad.cos() } else { 1.0 })
         } else {
             2.0
         },
         up: up / half_side,
         lod,
-        disc: light.disc / (radius * radius * MEAN_DISC),
+        disc: light.disc * (left / (radius * radius * MEAN_DISC)),
         brightest: exposure.map_or(NO_DISPLAY, |exposure| BRIGHTEST / exposure.max(1e-6)),
         glare: light.ground_sunlight
             * (if is_shown && lens {
@@ -121,6 +148,8 @@ pub fn uniforms(
             } else {
                 0.0
             }),
+        has_corona: f32::from(u8::from(corona > 0.0)),
+        corona: light.disc * (CORONA * corona / (SUN_RADIUS_RAD * SUN_RADIUS_RAD)),
         ..Default::default()
     }
 }

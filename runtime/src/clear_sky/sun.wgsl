@@ -8,7 +8,14 @@ fn sun_added(radiance: vec3f, direction: vec3f, share: f32) -> vec3f {
     }
     let sun = uniforms.sun;
     let root = inverseSqrt(2.0 - 2.0 * min(cosine, 1.0) + SUN_GLARE_CORE);
-    let glare = sun.glare * max(root * root * root - SUN_GLARE_END, 0.0);
+    var glare = sun.glare * max(root * root * root - SUN_GLARE_END, 0.0);
+    if sun.has_corona > 0.5 {
+        // The inverse square of the distance in radii of the sun; behind its disc there is no more. A cosine has too few digits for it.
+        let away = direction - uniforms.sky.sun_direction;
+        let near = min(SUN_GLARE_CORE / max(dot(away, away), 1e-9), 1.0);
+        let profile = 2.565 * pow(near, 8.5) + 1.425 * pow(near, 3.5) + 0.0532 * pow(near, 1.25);
+        glare += sun.corona * max(profile - SUN_CORONA_END, 0.0);
+    }
     let place = vec2f(dot(direction, sun.right), -dot(direction, sun.up));
     let around = radiance + share * glare;
     if max(abs(place.x), abs(place.y)) >= 1.0 {

@@ -17,6 +17,9 @@ pub(crate) const SKY_BINDING: u32 = 6;
 /// Binding of the skybox, the only cube.
 pub(crate) const SKYBOX_BINDING: u32 = 9;
 
+/// Binding of the stars of a catalogue.
+pub(crate) const CATALOGUE_BINDING: u32 = 10;
+
 /// Layouts of the groups: what every pass shares in group 0, what a method adds in group 1.
 #[derive(Debug)]
 pub(crate) struct Layouts {
@@ -166,6 +169,7 @@ fn shared_layout(device: &wgpu::Device, uniform_bytes: u64) -> wgpu::BindGroupLa
     );
     entries.push(entry(SKY_BINDING, texture(true, plane)));
     entries.push(entry(SKYBOX_BINDING, texture(true, cube)));
+    entries.push(entry(CATALOGUE_BINDING, texture(false, plane)));
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("sky, shared"),
         entries: &entries,

@@ -16,6 +16,8 @@ pub struct Build {
     pub reversed_depth: bool,
     /// Whether the pack has a skybox.
     pub skybox: bool,
+    /// Whether it has a catalogue of stars.
+    pub catalogue: bool,
 }
 
 /// A shader of these structs and parts. Each call is a function that parts ask for, and what gives it.
@@ -42,7 +44,7 @@ pub fn compose<'a>(
     text
 }
 
-fn constants(build: Build) -> [(&'static str, Value); 9] {
+fn constants(build: Build) -> [(&'static str, Value); 10] {
     let far_depth = if build.reversed_depth { 0.0 } else { 1.0 };
     [
         ("OUTPUT_RADIANCE", Value::U32(Output::Radiance as u32)),
@@ -50,6 +52,7 @@ fn constants(build: Build) -> [(&'static str, Value); 9] {
         ("OUTPUT_ENCODED", Value::U32(Output::Encoded as u32)),
         ("OUTPUT", Value::U32(build.output as u32)),
         ("SKYBOX", Value::Bool(build.skybox)),
+        ("CATALOGUE", Value::Bool(build.catalogue)),
         ("FAR_DEPTH", Value::F32(far_depth)),
         ("PI", Value::F32(PI)),
         ("TAU", Value::F32(TAU)),

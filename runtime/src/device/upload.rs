@@ -3,7 +3,7 @@
 use welkin_pack::{Format, Pack, Role, Shape, Texture};
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
-use super::layouts::{Layouts, SKY_BINDING, SKYBOX_BINDING, TEXTURES};
+use super::layouts::{CATALOGUE_BINDING, Layouts, SKY_BINDING, SKYBOX_BINDING, TEXTURES};
 use crate::device::layouts::array_layers;
 use crate::error::{SkyError, texture};
 
@@ -136,19 +136,23 @@ impl SharedTextures {
         })
     }
 
-    /// Group 0 of a view, with its uniforms and the clear sky of its moment.
+    /// Group 0 of a view, with its uniforms, the clear sky of its moment and the stars of a catalogue on its screen.
     pub fn group(
         &self,
         device: &wgpu::Device,
         layouts: &Layouts,
         uniforms: &wgpu::Buffer,
-        sky: &wgpu::Texture,
+        [sky, catalogue]: [&wgpu::Texture; 2],
     ) -> wgpu::BindGroup {
-        let sky = sky.create_view(&Default::default());
+        let [sky, catalogue] = [sky, catalogue].map(|t| t.create_view(&Default::default()));
         let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
         let mut entries = vec![
             entry(0, uniforms.as_entire_binding()),
             entry(SKY_BINDING, wgpu::BindingResource::TextureView(&sky)),
+            entry(
+                CATALOGUE_BINDING,
+                wgpu::BindingResource::TextureView(&catalogue),
+            ),
         ];
         let samplers = (1..).zip(&self.samplers);
         entries.extend(samplers.map(|(at, s)| entry(at, wgpu::BindingResource::Sampler(s))));

@@ -58,6 +58,7 @@ impl Common {
             output: output(&config, features)?,
             reversed_depth: config.depth.is_some_and(|d| d.reversed),
             skybox: pack_data.skybox.is_some(),
+            catalogue: pack_data.catalogue.is_some(),
         };
         let bytes = |role: Role| {
             let levels = pack.texture(role).map(|texture| &texture.levels);

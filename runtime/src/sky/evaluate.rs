@@ -2,11 +2,14 @@
 
 use glam::Vec3;
 
+use crate::clear_sky::cells::Cells;
 use crate::clear_sky::light::LitSky;
 #[cfg(feature = "perez")]
 use crate::clear_sky::perez;
 use crate::clear_sky::stars::Stand;
-use crate::clear_sky::{flares, galaxy, ground, moon, planets, skybox, stars, sun, table};
+use crate::clear_sky::{
+    catalogue, flares, galaxy, ground, moon, planets, skybox, stars, sun, table,
+};
 #[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
 use crate::clouds::photo;
 use crate::clouds::shared::{self, CloudView};
@@ -143,8 +146,12 @@ impl PackData {
             night * light.dark,
             params.even_stars,
             view.seconds,
-            dated.map(|(date, place)| Stand::of_date(date, place, self.galaxy_node)),
+            self.star_turn(&params, view.seconds)
+                .map(|turn| Stand::of_turn(turn, self.galaxy_node)),
         );
+        if self.catalogue.is_some() {
+            uniforms.catalogue = catalogue::uniforms(Cells::of(camera.viewport()));
+        }
         let one = stars::radiance_of_one(self.stars, pixel_rad, night * light.dark);
         uniforms.planets = planets::uniforms(dated, &uniforms.camera, one);
         let [_, noise, detail] = self.cloud_means;

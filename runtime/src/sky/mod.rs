@@ -10,6 +10,7 @@ mod common;
 mod evaluate;
 pub mod light;
 mod method_pipelines;
+mod night;
 mod view;
 
 use welkin_pack::Pack;

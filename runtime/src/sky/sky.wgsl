@@ -15,11 +15,19 @@ fn behind_clouds(direction: vec3f, pixel: vec2f, clear: f32) -> vec3f {
             let other = galaxy_brightness(direction_to_dome(star_turned(own)));
             galaxy = mix(galaxy, other, 0.5 - 0.5 * smoothstep(0.0, GALAXY_SEAM, own.y));
         }
-        var night = galaxy * uniforms.galaxy.radiance + star_radiance(dome, own.y, direction, pixel, galaxy, is_turned);
+        var night = galaxy * uniforms.galaxy.radiance;
+        if !CATALOGUE {
+            night += star_radiance(dome, own.y, direction, pixel, galaxy, is_turned);
+        }
         if uniforms.stars.is_placed > 0.5 {
             night += planet_radiance(pixel) * star_spread(direction);
         }
-        radiance += night * (smoothstep(0.0, EXTINCTION, direction.y) * (1.0 - moon.a));
+        night *= smoothstep(0.0, EXTINCTION, direction.y);
+        if CATALOGUE {
+            // The air has taken its share of these already.
+            night += catalogue_radiance(pixel) * star_spread(direction);
+        }
+        radiance += night * (1.0 - moon.a);
     }
     radiance = sun_added(radiance, direction, clear * clear * (1.0 - moon.a));
     radiance += moon.rgb;

@@ -2,6 +2,7 @@
 
 use super::common::{Common, DomeBuffers};
 use super::method_pipelines::MethodPipelines;
+use crate::clear_sky::catalogue_texture::CatalogueTexture;
 use crate::clear_sky::flares;
 use crate::clear_sky::table::SkyView;
 use crate::clear_sky::view_texture::ViewTexture;
@@ -30,6 +31,7 @@ pub struct View {
     shared: wgpu::BindGroup,
     uniforms: wgpu::Buffer,
     sky: ViewTexture,
+    catalogue: CatalogueTexture,
     dome: Option<DomeBuffers>,
     pipelines: [Option<MethodPipelines>; Method::ALL.len()],
     #[cfg(feature = "sprites")]
@@ -60,9 +62,15 @@ impl View {
             mapped_at_creation: false,
         });
         let sky = ViewTexture::new(device, SkyView::image_size(&common.pack_data.sky));
+        let catalogue = CatalogueTexture::new(device, common.pack_data.catalogue.is_some());
         let textures = &common.textures;
         View {
-            shared: textures.group(device, layouts, &uniforms, &sky.texture),
+            shared: textures.group(
+                device,
+                layouts,
+                &uniforms,
+                [&sky.texture, &catalogue.texture],
+            ),
             dome: common.dome.clone(),
             pipelines: [const { None }; Method::ALL.len()],
             #[cfg(feature = "sprites")]
@@ -70,6 +78,7 @@ impl View {
             prepared: None,
             uniforms,
             sky,
+            catalogue,
         }
     }
 
@@ -107,6 +116,9 @@ impl View {
         #[cfg_attr(not(feature = "sprites"), expect(unused_mut))]
         let mut uniforms = data.uniforms_under(lit, &clamped, camera, seconds, common.step);
         let seconds = finite(seconds);
+        if let Some(texels) = data.star_texels(lit, &clamped, camera, seconds) {
+            self.catalogue.write(queue, &texels);
+        }
         #[cfg(feature = "sprites")]
         {
             let frame = sprites::frame::Frame {

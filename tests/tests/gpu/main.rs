@@ -5,10 +5,12 @@
 mod air;
 mod application;
 mod backends;
+mod catalogue;
 mod cover;
 mod daylight;
 mod depth;
 mod dome;
+mod eclipse;
 mod examples;
 mod flares;
 mod formation;

@@ -48,6 +48,7 @@ fn toned(colours: &[Vec3], params: &SkyParams) -> Vec<Vec3> {
         output: Output::Display,
         reversed_depth: false,
         skybox: false,
+        catalogue: false,
     };
     let parts = [light::PART, tonemap::PART, ALONE];
     let text = compose(

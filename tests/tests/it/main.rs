@@ -1,5 +1,7 @@
 //! Whole-path tests that want no GPU and little time: golden packs, the closed forms of the sky, the order of the runtime's files.
 
+mod catalogue;
+mod eclipse;
 mod floors;
 mod golden;
 mod links;

@@ -160,6 +160,7 @@ fn packed_skies() -> Vec<Case> {
         moon_case("crescent", "2026-01-20T16:20:00Z", north),
         moon_case("day_moon", "2026-01-26T15:00:00Z", north),
         moon_case("eclipse", "2024-04-08T18:10:00Z", dallas),
+        moon_case("totality", "2024-04-08T18:42:30Z", dallas),
         case("jupiter", opposition, 180.0, 70.0, 0.0),
         case("southern_horizon", southern, 180.0, 20.0, 0.0),
         case("southern_equator", southern, 0.0, 45.0, 0.0),
