@@ -14,7 +14,10 @@ use crate::stream::Stream;
 
 /// The catalogue that a recipe means by `built-in`; assets-src/SOURCES.md says whose it is.
 #[cfg(feature = "stars")]
-const BUILT_IN: Option<&[u8]> = Some(include_bytes!("../../assets-src/stars/stars.6.json"));
+const BUILT_IN: Option<&[u8]> = Some(include_bytes!(concat!(
+    env!("WELKIN_ASSETS"),
+    "/stars/stars.6.json"
+)));
 /// It may be left out, as the photograph.
 #[cfg(not(feature = "stars"))]
 const BUILT_IN: Option<&[u8]> = None;
@@ -24,6 +27,11 @@ const BUILT_IN_BLAKE3: &str = "64589e3d24dae5fc64206bd1f911dd983e8ab409dc9261bd2
 
 /// The name of the built-in catalogue in errors and, without the feature `stars`, among the files in memory.
 pub const BUILT_IN_NAME: &str = "built-in catalogue";
+
+/// The bytes of the built-in catalogue, if it is compiled in.
+pub fn built_in_catalogue() -> Option<&'static [u8]> {
+    BUILT_IN
+}
 
 /// The key of the recipe.
 const KEY: &str = "stars.catalogue";

@@ -50,7 +50,7 @@ mod stream;
 mod sun;
 
 pub use bake::{Progress, bake, bake_from, cloud_field, skybox_faces, sources, sprite_sheet};
-pub use catalogued::BUILT_IN_NAME as BUILT_IN_CATALOGUE;
+pub use catalogued::{BUILT_IN_NAME as BUILT_IN_CATALOGUE, built_in_catalogue};
 pub use clouds::photo::{
     BUILT_IN_NAME as BUILT_IN_PHOTO, PhotoFile, PhotoTile, built_in_photo, photo_channel,
     photo_tile,

@@ -2,6 +2,7 @@
 //! environment maps, and passes timed on the GPU. The program `welkin-view` is built on it.
 
 pub mod adapters;
+pub mod constellations;
 pub mod export;
 pub mod frame;
 pub mod gpu;

@@ -10,6 +10,7 @@ use welkin_pack::place::verify_apart;
 use welkin_pack::whole::sweep_beside;
 use welkin_pack::{Pack, Role};
 use welkin_runtime::{Method, Oktas, SkyError, SkyParams};
+use welkin_viewer::constellations;
 use welkin_viewer::export::Environment;
 use welkin_viewer::export::light::Light;
 use welkin_viewer::gpu::Gpu;
@@ -53,7 +54,11 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     tell_leftovers(&sweep_beside(&args.output));
     match (shot, sequence) {
         (Shot::Frame(format), None) => {
-            let drawn = render(&gpu, &pack, format.target(), &view)?;
+            let mut drawn = render(&gpu, &pack, format.target(), &view)?;
+            if let Some(date) = view.params.date.filter(|_| args.constellations) {
+                let now = date.after(view.seconds);
+                constellations::draw(&mut drawn.frame, &view.camera, now, view.params.place);
+            }
             save(&args.output, &drawn.frame)?;
             if let (Some(file), Some(shadow)) = (&args.shadow, &drawn.shadow) {
                 save(file, shadow)?;

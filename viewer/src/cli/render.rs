@@ -38,6 +38,9 @@ pub struct RenderArgs {
     /// Side of the square around the viewer that the shadows cover, in metres, 1 to 1000000
     #[arg(long, value_name = "M", requires = "shadow", default_value_t = SHADOW_EXTENT_M, value_parser = shadow_extent_m, allow_hyphen_values = true, help_heading = LIT)]
     pub shadow_extent: f32,
+    /// Draw lines between the stars of ten constellations over a picture of a --date
+    #[arg(long, help_heading = SKY)]
+    pub constellations: bool,
     #[command(flatten)]
     pub export: ExportArgs,
     #[command(flatten)]
@@ -85,8 +88,22 @@ impl RenderArgs {
             self.shot()?;
         }
         self.refuse_for_radiance()?;
+        self.refuse_lines()?;
         let shadow = self.shadow.as_ref().map(|_| ("shadow", Method::Lit));
         self.settings.refuse_other_methods(shadow.as_slice())
+    }
+
+    /// Lines are drawn over one picture, and know where stars stand by a date alone.
+    fn refuse_lines(&self) -> Result<(), String> {
+        let is_picture =
+            matches!(self.shot(), Ok(Shot::Frame(format)) if format.target() == Target::Srgb8);
+        match (self.constellations, self.settings.settings.params.date) {
+            (true, None) => Err("--constellations needs to know where the stars stand; add --date".to_string()),
+            (true, Some(_)) if !is_picture || self.export.is_used() => Err(
+                "--constellations draws lines over one picture; write a .png, without options of maps and sequences".to_string(),
+            ),
+            _ => Ok(()),
+        }
     }
 
     /// Files of radiance hold no picture: what makes one of it is a mistake there, and told.
