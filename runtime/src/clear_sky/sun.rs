@@ -90,6 +90,8 @@ const NO_DISPLAY: f32 = 1e9;
 
 /// Shares of the sun's light that the moon covers between which the corona comes out: before, the rest outshines it.
 const CORONA_COVERED: [f32; 2] = [0.98, 1.0];
+/// The most radiance of an eclipsed disc: half floats end at 65504, and sky and glare come on top.
+const MOST_ECLIPSED: f32 = 60_000.0;
 /// The share of the sun's light at whose end its disc fades.
 const LAST_LIGHT: f32 = 0.01;
 /// The corona's radiance over the disc's mean, at r radii of the sun from its middle: `1e-6 (2.565 r^-17 + 1.425 r^-7 + 0.0532 r^-2.5)`.
@@ -125,6 +127,12 @@ pub fn uniforms(
     let corona = smoothstep(CORONA_COVERED[0], CORONA_COVERED[1], light.eclipsed);
     // A pixel at the moon's edge is covered in part, and must not show a sun that is all behind it.
     let left = ((1.0 - light.eclipsed) / LAST_LIGHT).min(1.0);
+    let disc = light.disc * (left / (radius * radius * MEAN_DISC));
+    // Eyes that have got used to what an eclipse leaves see the disc brighter than half floats are.
+    let most = match light.eclipsed > 0.0 {
+        true => MOST_ECLIPSED,
+        false => f32::INFINITY,
+    };
     let is_shown = shown && light.sun_direction.y > -2.0 * SUN_RADIUS_RAD;
     // What lights the ground is the radiance of a white surface, E / pi. The horizon hides the disc itself.
     SunUniforms {
@@ -140,7 +148,7 @@ pub fn uniforms(
         },
         up: up / half_side,
         lod,
-        disc: light.disc * (left / (radius * radius * MEAN_DISC)),
+        disc: disc * (most / disc.max_element().max(1e-6)).min(1.0),
         brightest: exposure.map_or(NO_DISPLAY, |exposure| BRIGHTEST / exposure.max(1e-6)),
         glare: light.ground_sunlight
             * (if is_shown && lens {
