@@ -22,8 +22,7 @@ fn lit_bent(uv: vec2f) -> vec2f {
 
 // Fibres by the cubic B-spline, of which two texels each way are one linear read: between coarse texels a linear one leaves stairs along the bends.
 fn lit_fibres(uv: vec2f, level: f32) -> vec4f {
-    let whole = min(u32(level), textureNumLevels(layers_texture) - 1u);
-    let size = f32(textureDimensions(layers_texture, whole).x);
+    let size = max(f32(textureDimensions(layers_texture).x) * exp2(-floor(level)), 1.0);
     let place = uv * size - 0.5;
     let f = fract(place);
     let g = 1.0 - f;
