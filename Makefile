@@ -160,7 +160,7 @@ test-docs: ## Compile the documentation without a warning, and run its examples
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps $(WINDOW) --locked
 	$(TEST) --doc
 
-test-packages: ## Package what is published, and compile and test it outside the repository
+test-packages: ## Package what is published, and compile it outside the repository
 	scripts/test-packages
 
 # With debug assertions, and many times as many with the program that users have.

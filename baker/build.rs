@@ -13,4 +13,8 @@ fn main() {
     };
     println!("cargo::rustc-env=WELKIN_ASSETS={}", assets.display());
     println!("cargo::rerun-if-changed=build.rs");
+    println!(
+        "cargo::rerun-if-changed={}",
+        assets.join("SOURCES.md").display()
+    );
 }

@@ -42,23 +42,20 @@ pub async fn choose(
     let fits = |adapter: &wgpu::Adapter| surface.is_none_or(|s| adapter.is_surface_supported(s));
     if let Some(wanted) = wanted {
         let mut adapters = enumerate(instance).await;
-        let count = adapters.len();
-        let place = adapters.iter().position(|adapter| match wanted {
+        let is_wanted = |(number, adapter): (usize, &wgpu::Adapter)| match wanted {
+            Wanted::Number(wanted) => number == *wanted,
+            // A card is there once for each interface, of which not every one may draw to the surface.
             Wanted::BusId(id) => {
                 adapter.get_info().device_pci_bus_id.to_lowercase() == *id && fits(adapter)
             }
-            Wanted::Number(_) => false,
-        });
-        let place = match wanted {
-            Wanted::Number(number) => Some(*number).filter(|number| *number < count),
-            Wanted::BusId(_) => place,
         };
+        let place = adapters.iter().enumerate().position(is_wanted);
         return match place {
             Some(place) => Ok(adapters.swap_remove(place)),
-            None if count == 0 => Err(GpuError::NoAdapter),
+            None if adapters.is_empty() => Err(GpuError::NoAdapter),
             None => Err(GpuError::NoSuchAdapter {
                 wanted: wanted.clone(),
-                count,
+                count: adapters.len(),
             }),
         };
     }

@@ -99,9 +99,9 @@ const LAST_LIGHT: f32 = 0.01;
 /// S. Baumbach, "Strahlung, Ergiebigkeit und Elektronendichte der Sonnenkorona", Astronomische Nachrichten 263, 1937, as C. W. Allen, "Astrophysical
 /// Quantities", has it.
 const CORONA: f32 = 1e-6;
-/// Where it ends, in radii of the sun, and what it is there: that is taken off everywhere.
+/// Where it ends, in radii of the sun.
 const CORONA_REACH: f32 = 8.0;
-/// See [`CORONA_REACH`].
+/// What it is there: that is taken off everywhere.
 pub const CORONA_END: f32 = 2.945_7e-4;
 
 /// The sun's share of the uniforms. `texels` is the side of the texture, `pixel_rad` that of a pixel; `shown` is

@@ -13,7 +13,10 @@ fn sun_added(radiance: vec3f, direction: vec3f, share: f32) -> vec3f {
         // The inverse square of the distance in radii of the sun; behind its disc there is no more. A cosine has too few digits for it.
         let away = direction - uniforms.sky.sun_direction;
         let near = min(SUN_GLARE_CORE / max(dot(away, away), 1e-9), 1.0);
-        let profile = 2.565 * pow(near, 8.5) + 1.425 * pow(near, 3.5) + 0.0532 * pow(near, 1.25);
+        // Powers by products: a GPU's logarithm is off by more than the steepest of them bears.
+        let side = sqrt(near);
+        let square = near * near;
+        let profile = 2.565 * square * square * square * square * side + 1.425 * square * near * side + 0.0532 * near * sqrt(side);
         glare += sun.corona * max(profile - SUN_CORONA_END, 0.0);
     }
     let place = vec2f(dot(direction, sun.right), -dot(direction, sun.up));

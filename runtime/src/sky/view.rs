@@ -25,7 +25,7 @@ use crate::weather::overlays::{self, Shown};
 /// A [`Sky`](super::Sky) has one of its own, which [`Sky::prepare`](super::Sky::prepare) and [`Sky::draw`](super::Sky::draw) use. Split screens, mirrors and the faces of a cube each want
 /// one more: all may then be prepared in one encoder, in any order, each with its own parameters and seconds, and drawn in one submission, even
 /// in one pass. The pack's textures and the pipelines are the sky's; a view has its uniforms, the maps of the methods it has shown (up to
-/// 5 MB) and what [`Method::Sprites`] keeps of its earlier frames.
+/// 6 MB) and what [`Method::Sprites`] keeps of its earlier frames.
 #[derive(Debug)]
 pub struct View {
     shared: wgpu::BindGroup,
@@ -172,7 +172,7 @@ impl View {
 
     /// Draws the prepared frame into a pass whose attachments are as the configuration said.
     ///
-    /// Before the first [`Sky::prepare`] there is nothing to draw.
+    /// Before the first frame was prepared there is nothing to draw.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         let Some((prepared, own)) = self.current() else {
             return;
