@@ -249,9 +249,9 @@ node-tools:
 	@[ -d tests/node/node_modules/ktx-parse ] && [ -d tests/node/node_modules/gltf-validator ] \
 	  || npm --prefix tests/node ci --no-audit --no-fund --silent
 
-# wasm-opt, the driver of the browser and the compiler of types come from npm; scripts/wasm-build looks for the compiler.
+# wasm-opt, the driver of the browser, the compiler of types, three.js and a bundler come from npm; scripts/wasm-build looks for the compiler.
 web-tools: node-tools
-	@[ -d web/node_modules/binaryen ] && [ -d web/node_modules/playwright-core ] && [ -d web/node_modules/typescript ] || npm --prefix web ci --no-audit --no-fund --silent
+	@[ -d web/node_modules/binaryen ] && [ -d web/node_modules/playwright-core ] && [ -d web/node_modules/typescript ] && [ -d web/node_modules/three ] && [ -d web/node_modules/vite ] || npm --prefix web ci --no-audit --no-fund --silent
 
 browser:
 	@command -v $(or $(CHROMIUM),/usr/bin/chromium) >/dev/null || scripts/apt-install chromium
