@@ -4,21 +4,13 @@ mod scene;
 
 use welkin_runtime::glam::camera::rh::{proj::directx as projection, view};
 use welkin_runtime::glam::{Mat4, Vec3};
-use welkin_runtime::{Camera, DepthConfig, Method, Sky, SkyConfig, SkyParams, wgpu};
+use welkin_runtime::{Camera, Method, Sky, SkyParams, wgpu};
 
 const SIZE_PX: [u32; 2] = [1280, 720];
 
 fn main() -> scene::Result<()> {
     let (device, queue) = scene::device()?;
-    // A float target gets radiance: 1 is the white of a sunlit cloud at noon, the sun's disc is thousands of that.
-    let config = SkyConfig {
-        target_format: scene::RADIANCE,
-        depth: Some(DepthConfig {
-            format: scene::DEPTH,
-            reversed: true,
-        }),
-        sample_count: 1,
-    };
+    let config = scene::radiance_config(1);
     let mut sky = Sky::new(&device, &queue, config, &scene::pack()?)?;
     let params = SkyParams {
         method: Method::Lit,

@@ -5,7 +5,7 @@ mod scene;
 
 use welkin_runtime::glam::camera::rh::{proj::directx as projection, view};
 use welkin_runtime::glam::{Mat4, Vec3};
-use welkin_runtime::{Axes, DepthConfig, Method, Sky, SkyConfig, SkyParams, wgpu};
+use welkin_runtime::{Axes, Method, Sky, SkyParams, wgpu};
 
 /// Of each half.
 const SIZE_PX: [u32; 2] = [640, 720];
@@ -13,14 +13,7 @@ const SAMPLES: u32 = 4;
 
 fn main() -> scene::Result<()> {
     let (device, queue) = scene::device()?;
-    let config = SkyConfig {
-        target_format: scene::RADIANCE,
-        depth: Some(DepthConfig {
-            format: scene::DEPTH,
-            reversed: true,
-        }),
-        sample_count: SAMPLES,
-    };
+    let config = scene::radiance_config(SAMPLES);
     let mut sky = Sky::new(&device, &queue, config, &scene::pack()?)?;
     // The sky has a view of its own; each further camera wants another.
     let mut other = sky.view();

@@ -1,10 +1,10 @@
 //! Lines between the stars of ten constellations, over a picture of a date.
 
-use glam::{DVec3, Vec2};
+use glam::Vec2;
 use welkin_runtime::almanac::refraction::lifted;
 use welkin_runtime::almanac::{Date, Place, frames, stars};
 use welkin_runtime::glam;
-use welkin_runtime::internals::geometry::camera::{self, Camera, CameraUniforms};
+use welkin_runtime::internals::geometry::camera::{self, Camera};
 
 use crate::frame::{Frame, Pixels};
 
@@ -137,7 +137,7 @@ pub fn draw(frame: &mut Frame, camera: &Camera, date: Date, place: Place) {
     for [from, to] in pairs() {
         let [from, to] = [from, to].map(|place| {
             let [ra, dec] = place.map(f64::to_radians);
-            on_screen(&view, lifted(turn * frames::of_angles(ra, dec)))
+            view.pixel_of(lifted(turn * frames::of_angles(ra, dec)).as_vec3())
         });
         let (Some(from), Some(to)) = (from, to) else {
             continue;
@@ -166,14 +166,6 @@ fn pairs() -> impl Iterator<Item = [[f64; 2]; 2]> {
 fn star(name: &str) -> Option<[f64; 2]> {
     let found = STARS.iter().find(|(other, _)| *other == name);
     found.map(|(_, place)| *place)
-}
-
-/// Pixel coordinates of a direction above the horizon and before the camera.
-fn on_screen(view: &CameraUniforms, direction: DVec3) -> Option<Vec2> {
-    let direction = direction.as_vec3();
-    let place = view.on_screen(direction).filter(|_| direction.y > 0.0)?;
-    let size_px = Vec2::new(view.width_px, view.height_px);
-    Some((0.5 + Vec2::new(0.5, -0.5) * place) * size_px)
 }
 
 /// Draws a line with soft edges.

@@ -14,13 +14,25 @@ pub use hills::Hills;
 
 pub use tone::Tone;
 use welkin_pack::Pack;
-use welkin_runtime::wgpu;
+use welkin_runtime::{DepthConfig, SkyConfig, wgpu};
 
 pub type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 /// Scene and sky are drawn as linear radiance.
 pub const RADIANCE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Scene and sky in one pass: a float target gets radiance, 1 the white of a sunlit cloud at noon, the sun's disc thousands of that. Depth is reversed.
+pub fn radiance_config(sample_count: u32) -> SkyConfig {
+    SkyConfig {
+        target_format: RADIANCE,
+        depth: Some(DepthConfig {
+            format: DEPTH,
+            reversed: true,
+        }),
+        sample_count,
+    }
+}
 
 /// The default pack, baked here in a second. A program that ships would read one from its files: `Pack::open("packs/default")`.
 pub fn pack() -> Result<Pack> {

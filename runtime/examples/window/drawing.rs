@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use welkin_runtime::glam::camera::rh::{proj::directx as projection, view};
 use welkin_runtime::glam::{Mat4, Quat, Vec3};
-use welkin_runtime::{Camera, DepthConfig, Sky, SkyConfig, SkyParams, wgpu};
+use welkin_runtime::{Camera, Sky, SkyParams, wgpu};
 use winit::dpi::LogicalSize;
 use winit::event_loop::ActiveEventLoop;
 use winit::window::Window;
@@ -57,14 +57,7 @@ impl Drawing {
         let encoding = formats.iter().find(|format| format.is_srgb());
         surface_config.format = *encoding.ok_or("the window has no sRGB format")?;
         surface.configure(&device, &surface_config);
-        let config = SkyConfig {
-            target_format: scene::RADIANCE,
-            depth: Some(DepthConfig {
-                format: scene::DEPTH,
-                reversed: true,
-            }),
-            sample_count: 1,
-        };
+        let config = scene::radiance_config(1);
         Ok(Drawing {
             sky: Sky::new(&device, &queue, config, &scene::pack()?)?,
             hills: scene::Hills::new(&device, &config),

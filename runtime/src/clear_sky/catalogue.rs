@@ -150,11 +150,8 @@ impl Catalogue {
 pub fn spot(star: &Star, night: &NightSky, camera: &CameraUniforms) -> Option<Spot> {
     let airless = night.turn * star.direction;
     let direction = (airless + Vec3::Y * lift(airless.y)).normalize();
-    if direction.y <= 0.0 {
-        return None;
-    }
+    let pixel = camera.pixel_of(direction)?;
     let size_px = Vec2::new(camera.width_px, camera.height_px);
-    let pixel = (0.5 + Vec2::new(0.5, -0.5) * camera.on_screen(direction)?) * size_px;
     let outside = (pixel - size_px).max(-pixel).max_element();
     if outside > FARTHEST_PX {
         return None;

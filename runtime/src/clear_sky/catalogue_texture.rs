@@ -1,6 +1,7 @@
 //! The stars of a frame's screen on a device: see [`cells`].
 
 use super::cells::{self, HEADER};
+use crate::device::upload::written;
 
 /// The texture that the shader reads them from.
 #[derive(Debug)]
@@ -11,25 +12,14 @@ pub(crate) struct CatalogueTexture {
 impl CatalogueTexture {
     /// Floats of 32 bits; of a pack without a catalogue a single texel, which nobody reads.
     pub fn new(device: &wgpu::Device, has_catalogue: bool) -> CatalogueTexture {
-        let [width, height] = match has_catalogue {
+        let size = match has_catalogue {
             true => [cells::WIDTH, cells::HEIGHT].map(|side| side as u32),
             false => [1, 1],
         };
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("stars of a catalogue"),
-            size: wgpu::Extent3d {
-                width,
-                height,
-                depth_or_array_layers: 1,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba32Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
-        CatalogueTexture { texture }
+        let format = wgpu::TextureFormat::Rgba32Float;
+        CatalogueTexture {
+            texture: written(device, "stars of a catalogue", format, size),
+        }
     }
 
     /// Writes whole rows of texels, one at least.

@@ -10,7 +10,7 @@
 //! # Practice
 //! Where they are on the screen is known to the CPU: a pixel of the night compares five distances.
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec3, Vec4};
 use welkin_pack::starlight::{light_of_magnitude, temperature_k};
 
 use crate::almanac::planets::{self, Planet};
@@ -79,7 +79,7 @@ pub fn uniforms(
     for (i, planet) in Planet::ALL.into_iter().enumerate() {
         let seen = planets::seen(planet, date, place);
         let direction = lifted(seen.direction).as_vec3();
-        let Some(pixel) = pixel_of(direction, camera) else {
+        let Some(pixel) = camera.pixel_of(direction) else {
             continue;
         };
         let light = light_of_magnitude(seen.magnitude) as f32 * one / sum();
@@ -87,13 +87,6 @@ pub fn uniforms(
         planets.lights[i] = (colour(planet.colour_index()) * light).extend(0.0);
     }
     planets
-}
-
-/// Pixel coordinates of a direction above the horizon and before the camera.
-fn pixel_of(direction: Vec3, camera: &CameraUniforms) -> Option<Vec2> {
-    let place = camera.on_screen(direction).filter(|_| direction.y > 0.0)?;
-    let size_px = Vec2::new(camera.width_px, camera.height_px);
-    Some((0.5 + Vec2::new(0.5, -0.5) * place) * size_px)
 }
 
 #[cfg(test)]

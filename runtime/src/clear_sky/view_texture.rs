@@ -3,6 +3,7 @@
 use crate::clear_sky::light::LitSky;
 use crate::clear_sky::moment::Lighting;
 use crate::clear_sky::table::halves;
+use crate::device::upload::written;
 
 /// The texture that the shader reads the clear sky from, and the light that goes with what is in it.
 #[derive(Debug)]
@@ -13,23 +14,10 @@ pub(crate) struct ViewTexture {
 
 impl ViewTexture {
     /// An empty texture of half floats.
-    pub fn new(device: &wgpu::Device, [width, height]: [u32; 2]) -> ViewTexture {
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("clear sky"),
-            size: wgpu::Extent3d {
-                width,
-                height,
-                depth_or_array_layers: 1,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba16Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
+    pub fn new(device: &wgpu::Device, size: [u32; 2]) -> ViewTexture {
+        let format = wgpu::TextureFormat::Rgba16Float;
         ViewTexture {
-            texture,
+            texture: written(device, "clear sky", format, size),
             written: None,
         }
     }

@@ -77,6 +77,39 @@ pub(crate) fn upload_skybox(
     Ok(device.create_texture_with_data(queue, &descriptor, order, &[0; 24]))
 }
 
+/// An empty plane that is written from here, now and again, and read.
+pub(crate) fn written(
+    device: &wgpu::Device,
+    label: &str,
+    format: wgpu::TextureFormat,
+    [width, height]: [u32; 2],
+) -> wgpu::Texture {
+    written_array(device, label, format, [width, height, 1])
+}
+
+/// The same of several layers.
+pub(crate) fn written_array(
+    device: &wgpu::Device,
+    label: &str,
+    format: wgpu::TextureFormat,
+    [width, height, depth_or_array_layers]: [u32; 3],
+) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
 /// `limit` is the device's `max_texture_dimension_2d`.
 fn refuse_too_large(role: Role, texture: &Texture, limit: u32) -> Result<(), SkyError> {
     let (width, height) = (texture.width, texture.height);

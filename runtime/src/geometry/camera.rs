@@ -47,6 +47,13 @@ impl CameraUniforms {
         let w = along(self.clip_w);
         (w > 1e-4).then(|| Vec2::new(along(self.clip_x), along(self.clip_y)) / w)
     }
+
+    /// Pixel coordinates of a direction above the horizon and before the camera: (0, 0) is the upper left corner.
+    pub fn pixel_of(&self, direction: Vec3) -> Option<Vec2> {
+        let place = self.on_screen(direction).filter(|_| direction.y > 0.0)?;
+        let size_px = Vec2::new(self.width_px, self.height_px);
+        Some((0.5 + Vec2::new(0.5, -0.5) * place) * size_px)
+    }
 }
 
 /// A perspective camera. The world is right-handed: +Y up, north -Z, east +X.

@@ -10,7 +10,7 @@ use crate::clear_sky::eye::{self, Overhead};
 use crate::clear_sky::light::LitSky;
 use crate::clear_sky::spread::Screen;
 use crate::clear_sky::stars;
-use crate::geometry::camera::{self, Camera};
+use crate::geometry::camera::{Camera, CameraUniforms};
 use crate::pack_data::PackData;
 use crate::params::SkyParams;
 
@@ -61,18 +61,17 @@ impl PackData {
         })
     }
 
-    /// The stars of the screen, as the shader reads them.
+    /// The stars of the screen, as the shader reads them; `view` is the camera's share of the uniforms.
     pub(crate) fn star_texels(
         &self,
         lit: &LitSky,
         params: &SkyParams,
-        camera: &Camera,
+        (camera, view): (&Camera, &CameraUniforms),
         seconds: f64,
     ) -> Option<Vec<[f32; 4]>> {
         let night = self.night_sky(lit, params, camera, seconds)?;
         let catalogue = self.catalogue.as_ref()?;
-        let view = camera::uniforms(camera);
-        let spots = catalogue.spots(&night, &view);
+        let spots = catalogue.spots(&night, view);
         Some(Cells::of(camera.viewport()).texels(spots))
     }
 }

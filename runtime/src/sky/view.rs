@@ -116,7 +116,9 @@ impl View {
         #[cfg_attr(not(feature = "sprites"), expect(unused_mut))]
         let mut uniforms = data.uniforms_under(lit, &clamped, camera, seconds, common.step);
         let seconds = finite(seconds);
-        if let Some(texels) = data.star_texels(lit, &clamped, camera, seconds) {
+        if let Some(texels) =
+            data.star_texels(lit, &clamped, (camera, &{ uniforms.camera }), seconds)
+        {
             self.catalogue.write(queue, &texels);
         }
         #[cfg(feature = "sprites")]

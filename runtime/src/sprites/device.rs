@@ -8,6 +8,7 @@ use super::outline;
 use super::pipelines::{GroupLayouts, STRIDE, SpriteBlock, one_of};
 use super::scene::{AMOUNTS_SIDE, Draw, Scene};
 use super::station::SpriteView;
+use crate::device::upload::written;
 
 /// The uniforms of blocks, one after another.
 #[derive(Debug)]
@@ -70,7 +71,7 @@ pub fn write_amounts(queue: &wgpu::Queue, texture: &wgpu::Texture, amounts: &[u8
 /// Rows of 256 clouds.
 pub fn amounts_texture(device: &wgpu::Device, rows: u32) -> wgpu::Texture {
     let size = [AMOUNTS_SIDE, rows.max(1)];
-    table(
+    written(
         device,
         "amounts of clouds",
         wgpu::TextureFormat::R8Unorm,
@@ -81,7 +82,7 @@ pub fn amounts_texture(device: &wgpu::Device, rows: u32) -> wgpu::Texture {
 /// Rows of 256 sprites.
 pub fn instances_texture(device: &wgpu::Device, rows: u32) -> wgpu::Texture {
     let size = [TEXELS * INSTANCES_PER_ROW, rows];
-    table(device, "sprites", wgpu::TextureFormat::Rgba32Uint, size)
+    written(device, "sprites", wgpu::TextureFormat::Rgba32Uint, size)
 }
 
 /// Texels of an instance.
@@ -167,29 +168,6 @@ pub fn uniform_buffer(device: &wgpu::Device, label: &str, size: u64) -> wgpu::Bu
         size,
         usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
-    })
-}
-
-/// A texture that is written from here and read as it is.
-fn table(
-    device: &wgpu::Device,
-    label: &str,
-    format: wgpu::TextureFormat,
-    [width, height]: [u32; 2],
-) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
     })
 }
 

@@ -27,6 +27,7 @@ use half::f16;
 use crate::device::context::{Context, Shader};
 use crate::device::layouts::{Layouts, array_layers};
 use crate::device::map::Plane;
+use crate::device::upload::written_array;
 use crate::geometry::math::mix;
 use crate::geometry::part::{Part, Value};
 use crate::params::{MAX_OCTAVES, SkyParams};
@@ -231,20 +232,8 @@ impl Pass {
 
 /// An array with a layer an octave.
 fn states_texture(device: &wgpu::Device, count: u32) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("octave states"),
-        size: wgpu::Extent3d {
-            width: NOISE_SIDE,
-            height: NOISE_SIDE,
-            depth_or_array_layers: array_layers(count),
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::R16Float,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    })
+    let size = [NOISE_SIDE, NOISE_SIDE, array_layers(count)];
+    written_array(device, "octave states", wgpu::TextureFormat::R16Float, size)
 }
 
 #[cfg(test)]
