@@ -8,6 +8,7 @@ use crate::clear_sky::moon::MoonUniforms;
 #[cfg(feature = "perez")]
 use crate::clear_sky::perez::PerezUniforms;
 use crate::clear_sky::planets::PlanetUniforms;
+use crate::clear_sky::sea::SeaUniforms;
 use crate::clear_sky::skybox::SkyboxUniforms;
 use crate::clear_sky::stars::StarUniforms;
 use crate::clear_sky::sun::SunUniforms;
@@ -16,13 +17,12 @@ use crate::clear_sky::table::SkyUniforms;
 use crate::clouds::fbm::FbmUniforms;
 #[cfg(feature = "lit")]
 use crate::clouds::lit::LitUniforms;
-#[cfg(feature = "lit")]
-use crate::clouds::lit::shadow::ShadowUniforms;
 #[cfg(feature = "octaves")]
 use crate::clouds::octaves::OctaveUniforms;
 use crate::clouds::packed::PackedUniforms;
 #[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
 use crate::clouds::photo::PhotoUniforms;
+use crate::clouds::shadow::ShadowUniforms;
 use crate::clouds::shared::CloudUniforms;
 use crate::geometry::camera::CameraUniforms;
 use crate::geometry::part::Part;
@@ -55,6 +55,8 @@ uniforms! {
         sky: SkyUniforms,
         /// The ground below the horizon.
         ground: GroundUniforms,
+        /// The sea in its place.
+        sea: SeaUniforms,
         /// Clear sky of Perez and others.
         #[cfg(feature = "perez")]
         perez: PerezUniforms,
@@ -74,6 +76,8 @@ uniforms! {
         skybox: SkyboxUniforms,
         /// What the clouds of every method share.
         clouds: CloudUniforms,
+        /// Shadows on the ground.
+        shadow: ShadowUniforms,
         /// Clouds of the packed method.
         packed: PackedUniforms,
         /// The photograph's share of their large shapes.
@@ -91,9 +95,6 @@ uniforms! {
         /// Clouds of the sprites method.
         #[cfg(feature = "sprites")]
         sprites: SpriteUniforms,
-        /// Shadows of the lit method's clouds.
-        #[cfg(feature = "lit")]
-        shadow: ShadowUniforms,
         /// A flash of lightning.
         #[cfg(feature = "weather")]
         lightning: LightningUniforms,

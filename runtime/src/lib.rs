@@ -67,8 +67,7 @@ pub use glam;
 pub use wgpu;
 
 pub use internals::almanac;
-#[cfg(feature = "lit")]
-pub use internals::clouds::lit::shadow;
+pub use internals::clouds::shadow;
 pub use internals::device::config::{DepthConfig, SkyConfig};
 pub use internals::error::SkyError;
 pub use internals::geometry::axes::Axes;

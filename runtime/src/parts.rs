@@ -3,9 +3,9 @@
 #[cfg(feature = "perez")]
 use crate::clear_sky::perez;
 use crate::clear_sky::{
-    catalogue, flares, galaxy, ground, light, moon, planets, skybox, stars, sun, table,
+    catalogue, flares, galaxy, ground, light, moon, planets, sea, skybox, stars, sun, table,
 };
-use crate::clouds::shared;
+use crate::clouds::{shadow, shared};
 use crate::device::context::Dome;
 use crate::device::map;
 use crate::device::shader::{Build, compose};
@@ -18,7 +18,7 @@ use crate::weather::{self, lightning, rain, rainbow, rays};
 use crate::{frame, tonemap};
 
 /// What every dome needs.
-const COMMON: [Part; 18] = [
+const COMMON: [Part; 19] = [
     frame::PART,
     camera::PART,
     dome::PART,
@@ -33,6 +33,7 @@ const COMMON: [Part; 18] = [
     planets::PART,
     skybox::PART,
     shared::PART,
+    shadow::PART,
     map::PART,
     flares::PART,
     tonemap::PART,
@@ -60,6 +61,9 @@ fn sky_parts(sky: SkyModel) -> &'static [Part] {
     }
 }
 
+/// What a dome over a sea needs.
+const SEA: &[Part] = &[sea::PART];
+
 /// The structs of all parts, each once: two methods may need the same part.
 fn structs() -> Vec<&'static Struct> {
     let mut structs: Vec<&Struct> = Vec::new();
@@ -75,7 +79,12 @@ fn structs() -> Vec<&'static Struct> {
 fn every() -> impl Iterator<Item = &'static Part> {
     let methods = Method::ALL.into_iter().flat_map(|m| m.clouds().parts());
     let skies = SkyModel::ALL.into_iter().flat_map(sky_parts);
-    COMMON.iter().chain(methods).chain(skies).chain(WEATHER)
+    COMMON
+        .iter()
+        .chain(methods)
+        .chain(skies)
+        .chain(WEATHER)
+        .chain(SEA)
 }
 
 /// The text of the shader of a dome: the parts that it needs. Structs are those of all parts, since the uniforms have them.
@@ -86,8 +95,12 @@ pub fn text(build: Build, dome: Dome) -> String {
         true => (WEATHER, "weather_over(radiance, direction, clouds)"),
         false => (&[][..], "radiance"),
     };
+    let (sea_parts, below) = match dome.sea {
+        true => (SEA, "sea_seen(horizon, direction)"),
+        false => (&[][..], "ground_seen(horizon, direction)"),
+    };
     let parts = COMMON.iter().chain(clouds.parts());
-    let parts = parts.chain(sky_parts).chain(weather_parts);
+    let parts = parts.chain(sky_parts).chain(weather_parts).chain(sea_parts);
     let (method, sky) = (dome.method.name(), dome.sky.name());
     let calls = [
         // Radiance and opacity of the clouds along a unit direction above the horizon, for a pixel that is so much narrower than one in
@@ -96,9 +109,19 @@ pub fn text(build: Build, dome: Dome) -> String {
             "cloud_layer(direction: vec3f, narrowing: f32) -> vec4f",
             format!("{method}_layer(direction, narrowing)"),
         ),
+        // Share of the light of sun or moon that the clouds hide from the middle of a texel of the shadows.
+        (
+            "cloud_hidden(texel: vec2f) -> f32",
+            format!("{method}_hidden(texel)"),
+        ),
         (
             "clear_sky_light(direction: vec3f) -> vec3f",
             format!("{sky}_light(direction)"),
+        ),
+        // What is seen along a direction below the horizon, where the sky's radiance is `horizon`.
+        (
+            "below_horizon(horizon: vec3f, direction: vec3f) -> vec3f",
+            below.to_string(),
         ),
         // Radiance of a pixel with what weather adds to it; its clouds are known.
         (
@@ -156,6 +179,7 @@ mod tests {
                                 shading,
                                 sky,
                                 weather,
+                                sea: skybox,
                             };
                             builds.push((build, dome));
                         }
@@ -172,13 +196,15 @@ mod tests {
             "packed" => &["fs_packed_map"],
             "octaves" => &["fs_octaves_map"],
             "fbm" => &["fs_fbm_map", "fs_fbm_pack"],
-            "lit" => &["fs_lit_map", "fs_lit_level", "fs_shadow"],
+            "lit" => &["fs_lit_map", "fs_lit_level"],
             "sprites" => &[
                 "vs_sprite",
                 "vs_ring_sprite",
                 "fs_sprite",
                 "vs_ring",
                 "fs_ring",
+                "vs_sprite_cast",
+                "fs_sprite_cast",
             ],
             _ => &[],
         }
@@ -205,6 +231,7 @@ mod tests {
                 "vs_flare",
                 "fs_flare",
                 "fs_sky",
+                "fs_shadow",
             ];
             let weather = [
                 "fs_rays_mask",

@@ -38,6 +38,7 @@ pub mod rain;
 pub mod rays;
 pub mod renderer;
 pub mod ring;
+pub mod sea;
 pub mod shadow;
 pub mod sky;
 pub mod skybox;

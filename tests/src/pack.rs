@@ -87,12 +87,15 @@ fn repeated(image: &Image, times: u32) -> Image {
     out
 }
 
-/// The default pack in a skybox that has one radiance all around.
+/// The default pack, with its clouds in space, in a skybox that has one radiance all around.
 ///
 /// # Panics
 /// If that is no pack.
 pub fn in_skybox(radiance: f32) -> Pack {
+    let field = default_pack().field().expect("there is one").clone();
     with_skybox(16, |_| [radiance, radiance, radiance, 1.0])
+        .with_any_field(field)
+        .expect("the default field is sound")
 }
 
 /// The default pack with a skybox of `size` texels a face: `scene` gives radiance times cover and cover along a

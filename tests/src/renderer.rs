@@ -15,7 +15,7 @@ use crate::stars::Seen;
 use crate::texture::{Texture, smoothstep};
 use crate::{
     camera, catalogue, fbm_map, fbm_pack, flares, galaxy, lightning, lit, lit_map, map, methods,
-    moon, octaves_map, packed_map, planets, rain, sky, stars, sun,
+    moon, octaves_map, packed_map, planets, rain, sea, sky, stars, sun,
 };
 
 /// A texture unit may filter 8-bit texels in 8 bits (Mesa's software does; Vulkan asks for no more), which makes a
@@ -43,6 +43,8 @@ pub struct Frame<'a> {
     pub method: Method,
     /// How they are shaded.
     pub shading: Shading,
+    /// Whether a sea lies below the horizon.
+    pub sea: bool,
     /// The frame's constants.
     pub uniforms: Uniforms,
     /// The clear sky of its moment.
@@ -96,10 +98,14 @@ impl<'a> Twin<'a> {
             twin: self,
             method: params.method,
             shading: params.shading,
+            sea: params.sea,
             uniforms,
             sky: sky::texture(&self.facts, params),
             map: Vec::new(),
-            nudges: vec![0.0; methods::reads(params.method, params.shading, &uniforms)],
+            nudges: {
+                let reads = methods::reads(params.method, params.shading, &uniforms);
+                vec![0.0; reads + if params.sea { sea::READS } else { 0 }]
+            },
             states: match params.method {
                 Method::Octaves => self.facts.octave_states(params, seconds),
                 Method::Packed | Method::Fbm | Method::Lit | Method::Sprites => Vec::new(),
@@ -388,7 +394,10 @@ impl Frame<'_> {
     fn pixel_behind(&self, pixel: Vec2) -> Vec3 {
         let (twin, uniforms) = (self.twin, &self.uniforms);
         let direction = camera::ray_of(&uniforms.camera, pixel).normalize();
-        let mut radiance = sky::radiance(uniforms, &self.sky, &twin.clouds, direction);
+        let mut radiance = match self.sea && direction.y < 0.0 {
+            true => sea::seen(self.method, &self.inputs(), &self.sky, direction),
+            false => sky::radiance(uniforms, &self.sky, &twin.clouds, direction),
+        };
         if uniforms.sky.night > 0.0 && direction.y > 0.0 {
             let own = stars::place(uniforms, direction);
             let galaxy_at = |direction| {

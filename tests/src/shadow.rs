@@ -1,7 +1,7 @@
-//! Twin of shadow.wgsl and cloud_shadow.wgsl.
+//! Twin of clouds/lit/shadow.wgsl, clouds/shadow.wgsl and clouds/cloud_shadow.wgsl.
 
 use glam::Vec2;
-use welkin_runtime::internals::clouds::lit::shadow::SIDE;
+use welkin_runtime::internals::clouds::shadow::SIDE;
 use welkin_runtime::params::Shading;
 
 use crate::clouds::{self, Inputs};

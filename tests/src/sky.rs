@@ -19,8 +19,8 @@ pub fn texture(data: &PackData, params: &SkyParams) -> Texture {
     Texture::from_levels(vec![view.image()], Wrap::Clamp)
 }
 
-/// Radiance of the clear sky along a unit direction, or of the ground, whose pattern is in the texture of the clouds.
-pub fn radiance(uniforms: &Uniforms, texture: &Texture, clouds: &Texture, direction: Vec3) -> Vec3 {
+/// Radiance of the sky behind the clouds along a unit direction above the horizon; below it, that of the horizon.
+pub fn above(uniforms: &Uniforms, texture: &Texture, direction: Vec3) -> Vec3 {
     let sky = &uniforms.sky;
     let light = perez::light(
         &uniforms.perez,
@@ -29,7 +29,13 @@ pub fn radiance(uniforms: &Uniforms, texture: &Texture, clouds: &Texture, direct
     );
     let low = 1.0 - direction.y.clamp(0.0, 1.0);
     let slit = 1.0 + sky.slit * low.powi(6);
-    let light = light.lerp(sky.overcast * slit, sky.overcast_weight);
+    light.lerp(sky.overcast * slit, sky.overcast_weight)
+}
+
+/// Radiance of the clear sky along a unit direction, or of the ground, whose pattern is in the texture of the clouds.
+pub fn radiance(uniforms: &Uniforms, texture: &Texture, clouds: &Texture, direction: Vec3) -> Vec3 {
+    let sky = &uniforms.sky;
+    let light = above(uniforms, texture, direction);
     if direction.y >= 0.0 {
         return light;
     }

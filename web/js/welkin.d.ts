@@ -53,6 +53,8 @@ export type SettingName =
   | 'sky'
   | 'haze'
   | 'ground'
+  | 'sea'
+  | 'waves'
   | 'turbidity'
   | 'cie'
   | 'perez'
@@ -154,6 +156,10 @@ export interface Settings {
   haze?: number | string;
   /** Share of light that the ground reflects, linear, each 0 to 1. */
   ground?: Value;
+  /** Whether a sea lies below the horizon, in place of the ground. */
+  sea?: boolean | 'true' | 'false';
+  /** How rough the sea is, 0 (calm) to 1 (a wind of 15 m/s). */
+  waves?: number | string;
   /** Haze in the air, 1.7 (clear) to 10 (thick). */
   turbidity?: number | string;
   /** Luminance of a standard sky of ISO 15469, 1 (overcast) to 12 (clear) to 15. */

@@ -17,6 +17,7 @@ pub mod moon;
 pub mod perez;
 pub mod picture;
 pub mod planets;
+pub mod sea;
 pub mod skybox;
 pub mod spread;
 pub mod stars;

@@ -25,8 +25,8 @@ fn table_light(direction: vec3f) -> vec3f {
     return sky.rgb + colour * (sky.a * phase);
 }
 
-// The sky behind the clouds along a unit direction, or the ground.
-fn sky_radiance(direction: vec3f) -> vec3f {
+// The sky behind the clouds along a unit direction above the horizon.
+fn sky_above(direction: vec3f) -> vec3f {
     var radiance = clear_sky_light(direction);
     if uniforms.sky.overcast_weight > 0.0 {
         let low = 1.0 - clamp(direction.y, 0.0, 1.0);
@@ -34,8 +34,14 @@ fn sky_radiance(direction: vec3f) -> vec3f {
         let slit = 1.0 + uniforms.sky.slit * low_squared * low_squared * low_squared;
         radiance = mix(radiance, uniforms.sky.overcast * slit, uniforms.sky.overcast_weight);
     }
+    return radiance;
+}
+
+// The sky behind the clouds along a unit direction, or what lies below the horizon.
+fn sky_radiance(direction: vec3f) -> vec3f {
+    let radiance = sky_above(direction);
     if direction.y < 0.0 {
-        radiance = ground_seen(radiance, direction);
+        return below_horizon(radiance, direction);
     }
     return radiance;
 }

@@ -12,4 +12,5 @@ pub mod octaves;
 pub mod packed;
 #[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
 pub mod photo;
+pub mod shadow;
 pub mod shared;

@@ -97,7 +97,7 @@ pub const POWDER: [f32; 2] = [0.4, 5.0];
 /// The least sine of the sun's elevation that counts: a lower sun comes in from the side.
 const LEAST_SINE: f32 = 0.4;
 /// Halvings of sunlight on its way to a middling cloud, and its height.
-const MIDDLING: [f32; 2] = [1.2, 0.3];
+pub(crate) const MIDDLING: [f32; 2] = [1.2, 0.3];
 /// Share of skylight that a cloud of height 1 keeps from its own underside.
 pub const HIDDEN: f32 = 0.45;
 /// Sines of the sun's elevation from which clouds are lit from above, and below which from the side.

@@ -20,6 +20,8 @@ pub struct Dome {
     pub sky: SkyModel,
     /// Whether rays, rain and lightning are compiled in.
     pub weather: bool,
+    /// Whether a sea takes the place of the ground.
+    pub sea: bool,
 }
 
 /// The shader of a dome. It is compiled when a pipeline is made of it that was not made before.
@@ -85,14 +87,13 @@ impl Context {
         &self,
         shader: &Shader,
         own: Option<&wgpu::BindGroupLayout>,
-        weather: bool,
     ) -> [wgpu::RenderPipeline; 4] {
         let pipeline = |variant: Variant| {
             screen(&self.config, own, self.mesh, variant, |drawing| {
                 self.pipeline(shader, drawing)
             })
         };
-        Variant::all(weather).map(pipeline)
+        Variant::all(shader.dome.weather, shader.dome.sea).map(pipeline)
     }
 
     /// The pipeline of what is drawn over the sky; `own` is the layout of its group 1.

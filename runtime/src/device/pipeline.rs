@@ -8,7 +8,7 @@ use crate::geometry::dome::Vertex;
 ///
 /// By day no star shows, the upper layer is mostly off, and weather is rare. A branch over a uniform would do for a GPU; a
 /// software rasteriser runs both of its sides, and takes twice the time. So each is a pipeline: four, and four of a shader with weather that are
-/// made when a frame first has any.
+/// made when a frame first has any. So it is with the sea.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Variant {
     /// Stars and galaxy.
@@ -17,16 +17,24 @@ pub(crate) struct Variant {
     pub upper_layer: bool,
     /// Haze of rain, or a flash.
     pub weather: bool,
+    /// A sea below the horizon.
+    pub sea: bool,
 }
 
 impl Variant {
-    /// Every variant with weather or without, at its [`Variant::index`].
-    pub fn all(weather: bool) -> [Variant; 4] {
+    /// Every variant of a shader with weather or without, and with a sea or without, at its [`Variant::index`].
+    pub fn all(weather: bool, sea: bool) -> [Variant; 4] {
         [0, 1, 2, 3].map(|index| Variant {
             night: index & 1 > 0,
             upper_layer: index & 2 > 0,
             weather,
+            sea,
         })
+    }
+
+    /// Which shader it is of, of four.
+    pub fn shader(self) -> usize {
+        usize::from(self.weather) + 2 * usize::from(self.sea)
     }
 
     /// Place in [`Variant::all`].
@@ -244,9 +252,10 @@ mod tests {
 
     #[test]
     fn every_variant_stands_at_its_index() {
-        for weather in [false, true] {
-            for (index, variant) in Variant::all(weather).into_iter().enumerate() {
-                assert_eq!((variant.index(), variant.weather), (index, weather));
+        for shader in 0..4 {
+            let (weather, sea) = (shader & 1 > 0, shader & 2 > 0);
+            for (index, variant) in Variant::all(weather, sea).into_iter().enumerate() {
+                assert_eq!((variant.index(), variant.shader()), (index, shader));
             }
         }
     }

@@ -6,6 +6,8 @@ use welkin_pack::Role;
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::fbm::{self, coverage, map, pack};
 use crate::clouds::photo;
+use crate::clouds::shadow::Layers;
+use crate::clouds::shared::LOW_HEIGHT_M;
 use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
@@ -47,6 +49,10 @@ impl CloudMethod for Fbm {
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
         let (octaves, sun) = (&frame.pack.fbm, frame.light.sun_direction);
         uniforms.fbm = fbm::uniforms(frame.params, &frame.view, octaves, sun);
+    }
+
+    fn shadow_layers(&self, frame: &MethodFrame<'_>, _uniforms: &Uniforms) -> Layers {
+        Layers::of_dome(frame.light.sun_direction, [LOW_HEIGHT_M])
     }
 
     fn overcast(&self, params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {

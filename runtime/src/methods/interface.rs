@@ -7,6 +7,7 @@ use welkin_pack::Role;
 
 use crate::clear_sky::light::Light;
 use crate::clouds::coverage::Distributions;
+use crate::clouds::shadow::Layers;
 use crate::clouds::shared::{self, CloudView};
 use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
@@ -51,6 +52,14 @@ pub(crate) trait CloudMethod: Sync {
 
     /// Writes its share of the uniforms. What all clouds share is there already.
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>);
+
+    /// The layers that its shader asks for the shadows of. Its uniforms are written.
+    fn shadow_layers(&self, frame: &MethodFrame<'_>, uniforms: &Uniforms) -> Layers;
+
+    /// Share of the direct light that the overcast behind its clouds keeps from the ground. Domes shut the sky by their clouds.
+    fn shut(&self, _params: &SkyParams) -> f32 {
+        0.0
+    }
 
     /// How overcast the sky behind is, 0..1.
     fn overcast_weight(&self, params: &SkyParams, _viewer_m: f32, _pack: &PackData) -> f32 {
@@ -101,11 +110,6 @@ pub(crate) trait MapPass: Debug + wgpu::WasmNotSendSync {
 
     /// The map itself.
     fn texture(&self) -> &wgpu::Texture;
-
-    /// The shadows of its clouds on the ground, once they were asked for.
-    fn shadow(&self) -> Option<&wgpu::Texture> {
-        None
-    }
 
     /// Bytes of all its textures.
     fn bytes(&self) -> u64;

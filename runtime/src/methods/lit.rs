@@ -4,7 +4,8 @@ use glam::Vec3;
 use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
-use crate::clouds::lit::{self, coverage, light, map, paper, shadow};
+use crate::clouds::lit::{self, SHADOW, coverage, light, map, paper};
+use crate::clouds::shadow::Layers;
 use crate::clouds::{photo, shared};
 use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
@@ -26,7 +27,7 @@ impl CloudMethod for Lit {
     }
 
     fn parts(&self) -> &'static [Part] {
-        &[photo::PART, lit::PART, paper::PART, map::PART, shadow::PART]
+        &[photo::PART, lit::PART, paper::PART, map::PART, SHADOW]
     }
 
     fn own_layout<'a>(&self, layouts: &'a Layouts) -> Option<&'a wgpu::BindGroupLayout> {
@@ -40,11 +41,7 @@ impl CloudMethod for Lit {
         _params: &SkyParams,
     ) -> Option<Box<dyn MapPass>> {
         let layers = context.own_texture(Method::Lit)?;
-        Some(Box::new(Pass {
-            map: map::Pass::new(context, shader, layers),
-            shader: shader.clone(),
-            shadow: None,
-        }))
+        Some(Box::new(map::Pass::new(context, shader, layers)))
     }
 
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
@@ -56,7 +53,12 @@ impl CloudMethod for Lit {
             &uniforms.clouds,
             frame.pack.cirrus_spreads,
         );
-        uniforms.shadow = shadow::uniforms(params, &frame.view, &uniforms.lit);
+    }
+
+    fn shadow_layers(&self, frame: &MethodFrame<'_>, uniforms: &Uniforms) -> Layers {
+        let params = frame.params;
+        let heights_m = lit::drawn(params).map(|(index, _)| lit::height_m(params, index));
+        Layers::new(uniforms.lit.light_position, heights_m)
     }
 
     fn overcast(&self, params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
@@ -95,23 +97,7 @@ impl CloudMethod for Lit {
     }
 }
 
-/// The map, and the cloud shadows that are drawn from it.
-#[derive(Debug)]
-struct Pass {
-    map: map::Pass,
-    shader: Shader,
-    /// Made when it is first asked for.
-    shadow: Option<shadow::Pass>,
-}
-
-impl MapPass for Pass {
-    fn ensure(&mut self, context: &Context, params: &SkyParams) {
-        if params.shadow_extent_m > 0.0 {
-            let new = || shadow::Pass::new(context, &self.shader);
-            self.shadow.get_or_insert_with(new);
-        }
-    }
-
+impl MapPass for map::Pass {
     fn record(
         &mut self,
         _queue: &wgpu::Queue,
@@ -119,30 +105,18 @@ impl MapPass for Pass {
         shared: &wgpu::BindGroup,
         frame: &MapFrame<'_>,
     ) {
-        let count = frame.uniforms.lit.count as usize;
-        self.map.draw(encoder, shared, count);
-        if let Some(shadow) = self
-            .shadow
-            .as_ref()
-            .filter(|_| frame.params.shadow_extent_m > 0.0)
-        {
-            shadow.record(encoder, shared, &self.map.group);
-        }
+        self.draw(encoder, shared, frame.uniforms.lit.count as usize);
     }
 
     fn group(&self) -> &wgpu::BindGroup {
-        &self.map.group
+        &self.group
     }
 
     fn texture(&self) -> &wgpu::Texture {
-        &self.map.map.texture
-    }
-
-    fn shadow(&self) -> Option<&wgpu::Texture> {
-        self.shadow.as_ref().map(shadow::Pass::texture)
+        &self.map.texture
     }
 
     fn bytes(&self) -> u64 {
-        texture_bytes(self.texture()) + self.shadow().map_or(0, texture_bytes)
+        texture_bytes(&self.map.texture)
     }
 }

@@ -6,6 +6,7 @@ use welkin_pack::Role;
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::octaves::{self, coverage, map};
 use crate::clouds::photo;
+use crate::clouds::shadow::Layers;
 use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
@@ -42,6 +43,10 @@ impl CloudMethod for Octaves {
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
         let (azimuth, sun) = (uniforms.clouds.sun_azimuth, frame.light.sun_direction);
         uniforms.octaves = octaves::uniforms(frame.params, &frame.view, azimuth, sun.y);
+    }
+
+    fn shadow_layers(&self, frame: &MethodFrame<'_>, _uniforms: &Uniforms) -> Layers {
+        Layers::of_dome(frame.light.sun_direction, octaves::HEIGHTS_M)
     }
 
     fn overcast(&self, params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {

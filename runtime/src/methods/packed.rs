@@ -4,7 +4,9 @@ use glam::Vec3;
 use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
-use crate::clouds::packed::{self, coverage, map, paper};
+use crate::clouds::packed::{self, UPPER_HEIGHT_M, coverage, map, paper};
+use crate::clouds::shadow::Layers;
+use crate::clouds::shared::LOW_HEIGHT_M;
 use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
@@ -41,6 +43,10 @@ impl CloudMethod for Packed {
     fn write(&self, uniforms: &mut Uniforms, frame: &MethodFrame<'_>) {
         let sun = frame.light.sun_direction;
         uniforms.packed = packed::uniforms(frame.params, &frame.view, sun);
+    }
+
+    fn shadow_layers(&self, frame: &MethodFrame<'_>, _uniforms: &Uniforms) -> Layers {
+        Layers::of_dome(frame.light.sun_direction, [LOW_HEIGHT_M, UPPER_HEIGHT_M])
     }
 
     fn overcast(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> Vec3 {

@@ -4,6 +4,7 @@ use glam::Vec3;
 use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MethodFrame, Shown};
+use crate::clouds::shadow::Layers;
 use crate::clouds::{packed, shared};
 use crate::frame::Uniforms;
 use crate::geometry::part::Part;
@@ -47,6 +48,14 @@ impl CloudMethod for Sprites {
             hours,
             flash,
         );
+    }
+
+    fn shadow_layers(&self, frame: &MethodFrame<'_>, _uniforms: &Uniforms) -> Layers {
+        Layers::of_dome(frame.light.sun_direction, [packed::UPPER_HEIGHT_M])
+    }
+
+    fn shut(&self, params: &SkyParams) -> f32 {
+        shared::overcast_weight(params.cover)
     }
 
     fn overcast_weight(&self, params: &SkyParams, viewer_m: f32, pack: &PackData) -> f32 {

@@ -74,7 +74,6 @@ pub struct SkyParams {
     /// Rays, rain and lightning.
     pub weather: WeatherParams,
     /// Side of the square around the viewer whose cloud shadows [`crate::Sky::shadow`] gives, in metres, 0..=1000000; 0 for none.
-    /// Of [`Method::Lit`] alone.
     pub shadow_extent_m: f32,
     /// How hazy the air is: 0 as the pack's clear air, 1 as its hazy air.
     pub haze: f32,
@@ -82,6 +81,10 @@ pub struct SkyParams {
     pub moon: f32,
     /// Share of red, green and blue light that the ground reflects, linear BT.709, 0..=1 each.
     pub ground: [f32; 3],
+    /// Whether a sea takes the place of the ground below the horizon.
+    pub sea: bool,
+    /// How rough the sea is, 0 (calm, wind of 1 m/s) to 1 (15 m/s).
+    pub waves: f32,
     /// Whether the discs of sun and moon are drawn.
     pub sun: bool,
     /// Whether stars and galaxy are drawn.
@@ -138,6 +141,8 @@ impl Default for SkyParams {
             haze: 0.0,
             moon: 1.0,
             ground: GROUND,
+            sea: false,
+            waves: 0.3,
             sun: true,
             stars: true,
             even_stars: false,

@@ -149,6 +149,10 @@ pub const SETTINGS: &[Setting] = settings! {
             = plain!(haze, UNIT).value("H").range_said().blends();
         "ground" "Ground" "Share of light that the ground reflects, linear, each 0 to 1"
             = three!(ground, Input::Colour).value("R,G,B").range_said().default_said(INLINE).blends();
+        "sea" "Sea" "Whether a sea lies below the horizon, in place of the ground"
+            = switch("sea", |params: &mut SkyParams| &mut params.sea).command_help("Let a sea lie below the horizon, in place of the ground");
+        "waves" "Waves" "How rough the sea is, 0 (calm) to 1 (a wind of 15 m/s)"
+            = plain!(waves, UNIT).when(text::has_sea).value("W").range_said().blends();
         "turbidity" "Turbidity" "Haze in the air, 1.7 (clear) to 10 (thick)"
             = plain!(perez.turbidity, TURBIDITY).when(text::has_haze).value("T").range_said();
         "cie" "Standard sky" "Luminance of a standard sky of ISO 15469, 1 (overcast) to 12 (clear) to 15"

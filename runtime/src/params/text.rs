@@ -222,6 +222,10 @@ pub fn has_haze(params: &SkyParams) -> bool {
     is_perez(params) && !matches!(params.perez.shape, PerezShape::Cie(..=LAST_OVERCAST))
 }
 
+pub fn has_sea(params: &SkyParams) -> bool {
+    params.sea
+}
+
 pub fn has_flare(params: &SkyParams) -> bool {
     params.flare > 0.0
 }

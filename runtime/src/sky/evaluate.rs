@@ -1,6 +1,6 @@
 //! Computes a frame's uniforms, once a frame, from pack, parameters, camera and seconds.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::clear_sky::cells::Cells;
 use crate::clear_sky::light::LitSky;
@@ -8,10 +8,11 @@ use crate::clear_sky::light::LitSky;
 use crate::clear_sky::perez;
 use crate::clear_sky::stars::Stand;
 use crate::clear_sky::{
-    catalogue, flares, galaxy, ground, moon, planets, skybox, stars, sun, table,
+    catalogue, flares, galaxy, ground, moon, planets, sea, skybox, stars, sun, table,
 };
 #[cfg(any(feature = "fbm", feature = "lit", feature = "octaves"))]
 use crate::clouds::photo;
+use crate::clouds::shadow;
 use crate::clouds::shared::{self, CloudView};
 use crate::device::pipeline::Variant;
 use crate::frame::Uniforms;
@@ -22,6 +23,7 @@ use crate::geometry::math::finite;
 use crate::methods::interface::MethodFrame;
 use crate::pack_data::PackData;
 use crate::params::{Method, SkyParams};
+use crate::sky::mean_clouds::MeanClouds;
 use crate::tonemap;
 #[cfg(feature = "weather")]
 use crate::weather::{lightning, rain, rainbow, rays};
@@ -87,6 +89,9 @@ impl PackData {
         for method in Method::DOMES {
             method.clouds().write(&mut uniforms, &frame);
         }
+        let layers = params.method.clouds().shadow_layers(&frame, &uniforms);
+        let shut = clamped.method.clouds().shut(clamped);
+        uniforms.shadow = shadow::uniforms(&params, &view, &layers, shut);
         #[cfg(feature = "weather")]
         let frame = MethodFrame {
             flash: write_weather(&mut uniforms, &frame, &rays),
@@ -124,6 +129,23 @@ impl PackData {
             pixel,
             self.sky.aerosol_depth(params.haze),
         );
+        if params.sea {
+            let mean = MeanClouds::new(self, clamped, &uniforms);
+            let [depth, height] = shared::MIDDLING;
+            let to_all_sides = shared::scattered(&uniforms.clouds, None, depth, height)[0];
+            let light = sea::SeaLight {
+                sky: light.sky_on_ground.lerp(overcast, overcast_weight),
+                sun: light.ground_sunlight * (1.0 - overcast_weight),
+                sun_sin: light.sun_direction.y,
+                clouds: sea::SeaClouds {
+                    opacity: mean.opacity,
+                    skylit: mean.skylit,
+                    sunlit: mean.sunlit / to_all_sides,
+                    middling: Vec2::new(depth, height),
+                },
+            };
+            uniforms.sea = sea::uniforms(light, params.waves, view.seconds, pixel);
+        }
         #[cfg(feature = "perez")]
         {
             uniforms.perez = perez::uniforms(&params.perez, params.sky, &light);
@@ -184,7 +206,7 @@ fn write_weather(uniforms: &mut Uniforms, frame: &MethodFrame<'_>, screen: &Rays
 
 impl Variant {
     /// What a frame needs beyond the clear sky.
-    pub fn of(uniforms: &Uniforms) -> Variant {
+    pub fn of(uniforms: &Uniforms, sea: bool) -> Variant {
         Variant {
             night: uniforms.sky.night > 0.0,
             upper_layer: uniforms.packed.upper_layer > 0.0,
@@ -192,6 +214,7 @@ impl Variant {
             weather: uniforms.rain.haze_opacity > 0.0 || uniforms.lightning.light.y > 0.0,
             #[cfg(not(feature = "weather"))]
             weather: false,
+            sea,
         }
     }
 }

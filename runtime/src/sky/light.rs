@@ -21,10 +21,11 @@ use crate::clear_sky::table::aureole_lobe;
 use crate::frame::Uniforms;
 use crate::geometry::camera::Camera;
 use crate::geometry::harmonics::{CLAMPED_COSINE, COUNT, FACTORS, basis};
-use crate::geometry::math::{luminance, smoothstep};
+use crate::geometry::math::luminance;
 use crate::pack_data::PackData;
 use crate::params::SkyParams;
 use crate::sky::air::Air;
+use crate::sky::mean_clouds::MeanClouds;
 
 /// WGSL of `sky_light_ambient(light, normal)`, `sky_light_direct` and `sky_light_clear`, for the application's shaders.
 pub const WGSL: &str = include_str!("light_on.wgsl");
@@ -100,48 +101,6 @@ const EXPOSURES: [f32; 2] = [1.0 / 64.0, 64.0];
 /// Rows of the ground, from the horizon down.
 const GROUND_ROWS: u32 = 12;
 
-/// What clouds are on average.
-struct Clouds<'a> {
-    params: &'a SkyParams,
-    opacity: f32,
-    /// Radiance by sunlight that they show where they are lit from all sides.
-    sunlit: Vec3,
-    /// Radiance by all else.
-    skylit: Vec3,
-}
-
-impl<'a> Clouds<'a> {
-    fn new(data: &PackData, params: &'a SkyParams, uniforms: &Uniforms) -> Clouds<'a> {
-        let method = params.method.clouds();
-        let mut sunless = *uniforms;
-        sunless.clouds.sunlight = Vec3::ZERO;
-        #[cfg(feature = "lit")]
-        {
-            sunless.lit.light = Vec3::ZERO;
-        }
-        let (opacity, whole) = method.mean(params, uniforms, data);
-        let (_, skylit) = method.mean(params, &sunless, data);
-        Clouds {
-            params,
-            opacity: opacity.clamp(0.0, 1.0),
-            sunlit: whole - skylit,
-            skylit,
-        }
-    }
-
-    /// Their mean opacity at a sine of elevation.
-    fn opacity(&self, uniforms: &Uniforms, sine: f32) -> f32 {
-        self.opacity * smoothstep(0.0, 1.0, sine * uniforms.clouds.haze_scale)
-    }
-
-    fn over(&self, behind: Vec3, uniforms: &Uniforms, direction: Vec3) -> Vec3 {
-        let method = self.params.method.clouds();
-        let facing = method.facing(self.params, uniforms, direction, self.opacity);
-        let cloud = self.sunlit * facing + self.skylit;
-        behind.lerp(cloud, self.opacity(uniforms, direction.y))
-    }
-}
-
 /// Moments of light that is the same on both sides of the sun: of radiance times solid angle, and of that times products of a direction's
 /// components up and towards the sun's azimuth. Nine harmonics follow from them.
 #[derive(Default)]
@@ -215,7 +174,7 @@ impl PackData {
         let camera = Camera::looking(0.0, 0.0, 1.0, [1, 1]);
         let uniforms = &self.uniforms_under(lit, params, &camera, seconds, 0.0);
         let (light, sun) = (lit.light, lit.light.sun_direction);
-        let clouds = Clouds::new(self, params, uniforms);
+        let clouds = MeanClouds::new(self, params, uniforms);
         let azimuth = uniforms.sky.azimuth;
         // A direction by its sine of elevation and the cosine of its azimuth from the sun's.
         let towards = |sine: f32, azimuth_cos: f32| {
@@ -225,7 +184,11 @@ impl PackData {
             Vec3::new(flat * place.x, sine, flat * place.y)
         };
         let mut sum = Moments::default();
-        let mut horizon = Vec::with_capacity(self.sky.azimuths());
+        let azimuths = self.sky.azimuths();
+        let mut horizon = Vec::with_capacity(azimuths);
+        // All of it, for a sea to mirror.
+        let mut above = Vec::new();
+        let mut sines = Vec::new();
         let (mut zenith, mut nearest) = (Vec3::ZERO, (-1.0, Vec3::ZERO));
         for at in self.sky.samples(&lit.view) {
             let direction = towards(at.sine, at.azimuth_cos);
@@ -235,6 +198,12 @@ impl PackData {
             let radiance = clouds.over(behind, uniforms, direction);
             let along = direction.xz().dot(azimuth);
             sum.add(radiance * at.solid_angle, at.sine, along);
+            if params.sea {
+                if above.len() % azimuths == 0 {
+                    sines.push(at.sine);
+                }
+                above.push(radiance);
+            }
             if at.sine == 0.0 {
                 horizon.push((at.azimuth_cos, at.solid_angle, radiance));
             }
@@ -255,7 +224,17 @@ impl PackData {
         let ends = [end(horizon.first()), end(horizon.last())];
         let around: f32 = horizon.iter().map(|(_, weight, _)| weight).sum();
         let mut mean_horizon = Vec3::ZERO;
-        for (azimuth_cos, weight, radiance) in horizon {
+        for (column, (azimuth_cos, weight, radiance)) in horizon.into_iter().enumerate() {
+            let mirrored = |sine: f32| {
+                let row = sines
+                    .partition_point(|s| *s < sine)
+                    .clamp(1, sines.len() - 1);
+                let [low, high] = [row - 1, row].map(|row| above[row * azimuths + column]);
+                low.lerp(
+                    high,
+                    (sine - sines[row - 1]) / (sines[row] - sines[row - 1]),
+                )
+            };
             let share = weight / around;
             mean_horizon += radiance * share;
             for row in 0..GROUND_ROWS {
@@ -265,8 +244,19 @@ impl PackData {
                 let sine = -root * root;
                 let solid_angle = 2.0 * root * step * std::f32::consts::TAU * share;
                 let direction = towards(sine, azimuth_cos);
-                let seen = uniforms.ground.seen(radiance, direction, sun);
+                let seen = match params.sea {
+                    true => {
+                        let ground = &uniforms.ground;
+                        uniforms.sea.seen(ground, radiance, direction, mirrored)
+                    }
+                    false => uniforms.ground.seen(radiance, direction, sun),
+                };
                 sum.add(seen * solid_angle, sine, direction.xz().dot(azimuth));
+            }
+        }
+        if params.sea && sun.y > 0.0 {
+            for (light, from) in uniforms.sea.glitter(&uniforms.ground, sun) {
+                sum.add(light * open, from.y, from.xz().dot(azimuth));
             }
         }
         let clear_irradiance = light.ground_sunlight * std::f32::consts::PI;

@@ -9,6 +9,7 @@ pub mod air;
 mod common;
 mod evaluate;
 pub mod light;
+mod mean_clouds;
 mod method_pipelines;
 mod night;
 mod view;
@@ -18,8 +19,7 @@ use welkin_pack::Pack;
 use self::common::Common;
 pub use self::light::{Luminary, SkyLight};
 pub use self::view::View;
-#[cfg(feature = "lit")]
-use crate::clouds::lit::shadow::Shadow;
+use crate::clouds::shadow::Shadow;
 use crate::device::config::SkyConfig;
 use crate::error::SkyError;
 use crate::geometry::camera::Camera;
@@ -175,8 +175,7 @@ impl Sky {
 
     /// The shadows that the clouds of the prepared frame throw on the ground: see [`crate::shadow`].
     ///
-    /// None without [`Method::Lit`], and where [`SkyParams::shadow_extent_m`] is 0.
-    #[cfg(feature = "lit")]
+    /// None where [`SkyParams::shadow_extent_m`] is 0.
     pub fn shadow(&self) -> Option<Shadow<'_>> {
         self.view.shadow()
     }

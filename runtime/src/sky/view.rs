@@ -6,8 +6,7 @@ use crate::clear_sky::catalogue_texture::CatalogueTexture;
 use crate::clear_sky::flares;
 use crate::clear_sky::table::SkyView;
 use crate::clear_sky::view_texture::ViewTexture;
-#[cfg(feature = "lit")]
-use crate::clouds::lit::shadow::{self, Shadow};
+use crate::clouds::shadow::{self, Shadow};
 use crate::device::context::Context;
 use crate::device::pipeline::Variant;
 use crate::frame::Uniforms;
@@ -16,7 +15,7 @@ use crate::geometry::math::finite;
 use crate::methods::interface::MapFrame;
 use crate::params::{Method, SkyModel, SkyParams};
 #[cfg(feature = "sprites")]
-use crate::sprites::{self, layer::SpriteLayer};
+use crate::sprites::{self, layer::SpriteLayer, pipelines::Behind};
 #[cfg(feature = "weather")]
 use crate::weather::overlays::{self, Shown};
 
@@ -36,6 +35,8 @@ pub struct View {
     pipelines: [Option<MethodPipelines>; Method::ALL.len()],
     #[cfg(feature = "sprites")]
     sprites: SpriteLayer,
+    /// Made when shadows are first asked for.
+    shadow: Option<shadow::Target>,
     prepared: Option<Prepared>,
 }
 
@@ -44,11 +45,12 @@ pub struct View {
 struct Prepared {
     method: Method,
     sky: SkyModel,
+    #[cfg(feature = "sprites")]
+    behind: Behind,
     variant: Variant,
     flare: bool,
     #[cfg(feature = "weather")]
     weather: Shown,
-    #[cfg(feature = "lit")]
     shadow: Option<shadow::Area>,
 }
 
@@ -75,6 +77,7 @@ impl View {
             pipelines: [const { None }; Method::ALL.len()],
             #[cfg(feature = "sprites")]
             sprites: SpriteLayer::default(),
+            shadow: None,
             prepared: None,
             uniforms,
             sky,
@@ -150,7 +153,16 @@ impl View {
             };
             map.record(queue, encoder, &self.shared, &frame);
         }
-        let variant = Variant::of(&uniforms);
+        let area = shadow::Area::of(&params, camera.position_m().as_dvec3());
+        if area.is_some() {
+            let new = || shadow::Target::new(&common.context.device);
+            let target = self.shadow.get_or_insert_with(new);
+            own.record_shadow(&common.context, encoder, &self.shared, &target.view);
+            #[cfg(feature = "sprites")]
+            self.sprites
+                .cast(Behind::of(&params), encoder, &self.shared, &target.view);
+        }
+        let variant = Variant::of(&uniforms, params.sea);
         #[cfg(feature = "weather")]
         let weather = overlays::shown(&uniforms.rays, &uniforms.rain);
         #[cfg(feature = "weather")]
@@ -158,17 +170,18 @@ impl View {
         // A flash that is told is made ready for before it begins.
         #[cfg(feature = "weather")]
         if variant.weather || params.weather.lightning.strength > 0.0 {
-            own.ensure_sky(&common.context, params.sky, true);
+            own.ensure_sky(&common.context, params.sky, true, params.sea);
         }
         self.prepared = Some(Prepared {
             method: params.method,
             sky: params.sky,
+            #[cfg(feature = "sprites")]
+            behind: Behind::of(&params),
             variant,
             flare: uniforms.flares.strength > 0.0,
             #[cfg(feature = "weather")]
             weather,
-            #[cfg(feature = "lit")]
-            shadow: shadow::Area::of(&params, camera.position_m().as_dvec3()),
+            shadow: area,
         });
     }
 
@@ -197,7 +210,7 @@ impl View {
         }
         // What lies over the sky, from the farthest to the nearest.
         #[cfg(feature = "sprites")]
-        self.sprites.draw(pass, prepared.sky);
+        self.sprites.draw(pass, prepared.behind);
         #[cfg(feature = "weather")]
         own.weather.draw(pass, prepared.weather);
         if let Some(flare) = own.flare.as_ref().filter(|_| prepared.flare) {
@@ -238,13 +251,11 @@ impl View {
 
     /// The shadows that the clouds of the prepared frame throw on the ground: see [`crate::shadow`].
     ///
-    /// None without [`Method::Lit`], and where [`SkyParams::shadow_extent_m`] is 0.
-    #[cfg(feature = "lit")]
+    /// None where [`SkyParams::shadow_extent_m`] is 0.
     pub fn shadow(&self) -> Option<Shadow<'_>> {
-        let (prepared, own) = self.current()?;
-        let area = prepared.shadow?;
+        let area = self.prepared?.shadow?;
         Some(Shadow {
-            texture: own.map.as_ref()?.shadow()?,
+            texture: &self.shadow.as_ref()?.texture,
             centre_m: area.centre_m.as_vec2().to_array(),
             extent_m: area.extent_m as f32,
         })

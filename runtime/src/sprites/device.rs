@@ -10,6 +10,9 @@ use super::scene::{AMOUNTS_SIDE, Draw, Scene};
 use super::station::SpriteView;
 use crate::device::upload::written;
 
+/// How often a block is drawn in a frame, at most.
+pub const BLOCKS_A_SLOT: usize = 5;
+
 /// The uniforms of blocks, one after another.
 #[derive(Debug)]
 pub struct Blocks {
@@ -23,8 +26,8 @@ pub struct Blocks {
 impl Blocks {
     /// Room for those of a frame.
     pub fn new(device: &wgpu::Device, slots: usize, exposed: Span) -> Blocks {
-        // Every block on the screen, and in at most three pictures of a ring.
-        let most = 4 * slots;
+        // Every block on the screen, in at most three pictures of a ring, and on the ground.
+        let most = BLOCKS_A_SLOT * slots;
         Blocks {
             buffer: uniform_buffer(device, "blocks of sprites", most as u64 * STRIDE),
             bytes: Vec::with_capacity(most * STRIDE as usize),

@@ -59,6 +59,7 @@ pub fn station(frame: &Frame<'_>, viewer_m: DVec3, sight_m: f32, heights_m: [f64
             // Pictures hold colours as the target does: shares of the exposure, and another curve is another look.
             params.exposure_factor().max(f32::MIN_POSITIVE).ln(),
             f32::from(params.tonemap as u8),
+            f32::from(u8::from(params.sea)),
         ],
     }
 }

@@ -6,9 +6,10 @@ use welkin_pack::{Field, Pack, Role};
 use super::frame::Frame;
 use super::outline::{Outline, outlines};
 use super::pass::Pass;
+use super::pipelines::Behind;
 use crate::device::context::Context;
 use crate::error::{SkyError, texture};
-use crate::params::{Method, SkyModel, SkyParams};
+use crate::params::{Method, SkyParams};
 
 /// What a pack has of clouds in space.
 #[derive(Debug)]
@@ -58,7 +59,7 @@ impl SpriteLayer {
             Pass::new(context, atlas, field, &stock.outlines, distance_m)
         };
         let pass = self.pass.get_or_insert_with(|| new().into());
-        pass.load(context, params.sky);
+        pass.load(context, Behind::of(params));
     }
 
     /// Computes a frame and records the pictures of the ring that it draws. Parameters are in range.
@@ -81,6 +82,19 @@ impl SpriteLayer {
         }
     }
 
+    /// Draws the shadows of the recorded frame over those of the dome behind, if it has any.
+    pub fn cast(
+        &self,
+        behind: Behind,
+        encoder: &mut wgpu::CommandEncoder,
+        shared: &wgpu::BindGroup,
+        target: &wgpu::TextureView,
+    ) {
+        if let Some(shown) = self.shown() {
+            shown.record_cast(behind, encoder, shared, target);
+        }
+    }
+
     /// The fraction of the sun's light that comes through to the viewer.
     pub fn clear_towards_sun(&self, frame: &Frame<'_>, sun: Vec3) -> f32 {
         let shown = self.shown();
@@ -88,9 +102,9 @@ impl SpriteLayer {
     }
 
     /// Draws the recorded frame over the sky.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, sky: SkyModel) {
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, behind: Behind) {
         if let Some(shown) = self.shown() {
-            shown.draw(pass, sky);
+            shown.draw(pass, behind);
         }
     }
 

@@ -21,6 +21,7 @@
 //! blends radiance, another one display light. They stand at their depth: a scene drawn before hides them, and
 //! what is drawn later should test depth against the scene alone, since sprites write none. It wants a target that can be blended with.
 
+mod cast;
 mod device;
 pub mod exposures;
 pub mod formation;

@@ -1,5 +1,6 @@
 //! The sprites on a device.
 
+mod cast;
 mod pictures;
 
 use glam::{DVec3, Vec3};
@@ -7,31 +8,31 @@ use welkin_pack::Field;
 use wgpu::util::DeviceExt;
 
 use super::device::{
-    Blocks, amounts_texture, exposure_textures, index_buffers, instances_texture, sprites_group,
-    uniform_buffer, upload, write_amounts, write_exposures,
+    BLOCKS_A_SLOT, Blocks, amounts_texture, exposure_textures, index_buffers, instances_texture,
+    sprites_group, uniform_buffer, upload, write_amounts, write_exposures,
 };
 use super::exposures::{Exposures, Span};
 use super::frame::{Frame, screen_view, station};
 use super::grid::{BlockId, around, slots_a_side};
 use super::instances::{INSTANCES_PER_ROW, Instance};
 use super::outline::{self, Outline};
-use super::pipelines::{GroupLayouts, Pipelines, STRIDE};
+use super::pipelines::{Behind, GroupLayouts, Pipelines, STRIDE};
 use super::ring::{Ring, Step};
 use super::scene::{AMOUNTS_SIDE, Draw, Scene, planes};
 use super::station::{self, RingUniforms, SpriteView};
 use crate::device::context::{Context, Dome, Shader};
-use crate::params::{Method, Shading, SkyModel};
+use crate::params::{Method, Shading};
 
-/// Views of a frame: the screen's and the ring's pictures'.
-const VIEWS: u64 = 1 + station::PICTURES as u64;
+/// Views of a frame: the screen's, the ring's pictures', and the ground's.
+const VIEWS: u64 = 2 + station::PICTURES as u64;
 
 /// The sprites of a field, and what draws them.
 #[derive(Debug)]
 pub(crate) struct Pass {
     scene: Scene,
     groups: GroupLayouts,
-    /// Of each sky model, at its place in [`SkyModel::ALL`].
-    pipelines: [Option<Pipelines>; SkyModel::ALL.len()],
+    /// Before each of what may lie behind, at its place.
+    pipelines: [Option<Pipelines>; Behind::COUNT],
     /// The pictures of the sprites.
     sheet: wgpu::Texture,
     instances: wgpu::Texture,
@@ -58,6 +59,8 @@ pub(crate) struct Pass {
     draws: Vec<(Draw, u32)>,
     /// Those before this one are for the ring's pictures.
     pictured: usize,
+    /// Those from there to this one are for the ground's shadows.
+    cast: usize,
     step: Step,
     ring_shows: bool,
 }
@@ -98,14 +101,15 @@ impl Pass {
                 [&views, &blocks.buffer, &outlines],
             ),
             ring_uniforms: uniform_buffer(device, "ring", size_of::<RingUniforms>() as u64),
-            pipelines: [const { None }; SkyModel::ALL.len()],
-            draws: Vec::with_capacity(4 * slots),
+            pipelines: [const { None }; Behind::COUNT],
+            draws: Vec::with_capacity(BLOCKS_A_SLOT * slots),
             found: Vec::with_capacity(slots),
             ring: None,
             pictures: [const { None }; 2],
             ring_group: None,
             ring_shows: false,
             pictured: 0,
+            cast: 0,
             instances,
             step: Step::Keep,
             sheet: sheet.clone(),
@@ -121,15 +125,16 @@ impl Pass {
         }
     }
 
-    /// Makes the pipelines of a sky model if they are not there yet.
-    pub fn load(&mut self, context: &Context, sky: SkyModel) {
+    /// Makes the pipelines if they are not there yet.
+    pub fn load(&mut self, context: &Context, behind: Behind) {
         let groups = &self.groups;
-        self.pipelines[sky as usize].get_or_insert_with(|| {
+        self.pipelines[behind.index()].get_or_insert_with(|| {
             let dome = Dome {
                 method: Method::Sprites,
                 shading: Shading::default(),
-                sky,
+                sky: behind.sky,
                 weather: false,
+                sea: behind.sea,
             };
             Pipelines::new(context, &Shader::new(dome), groups)
         });
@@ -167,14 +172,15 @@ impl Pass {
         let now = station(frame, viewer_m, sight_m, self.scene.heights_m);
         self.step_ring(context, now);
         let pictures = self.gather_pictures(queue, sheet, frame);
+        self.gather_cast(context, queue, sheet, frame, sight_m);
         self.gather_screen(queue, &screen, frame, sight_m);
         queue.write_buffer(&self.blocks.buffer, 0, &self.blocks.bytes);
-        self.record_pictures(encoder, shared, frame.params.sky, pictures);
+        self.record_pictures(encoder, shared, Behind::of(frame.params), pictures);
     }
 
     /// Draws the recorded frame over the sky.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, sky: SkyModel) {
-        let Some(pipelines) = &self.pipelines[sky as usize] else {
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, behind: Behind) {
+        let Some(pipelines) = &self.pipelines[behind.index()] else {
             return;
         };
         if let Some(group) = self.ring_group.as_ref().filter(|_| self.ring_shows) {
@@ -183,7 +189,7 @@ impl Pass {
             pass.draw(0..RING_VERTICES, 0..1);
         }
         pass.set_pipeline(&pipelines.sprites);
-        for (draw, block) in &self.draws[self.pictured..] {
+        for (draw, block) in &self.draws[self.cast..] {
             self.draw_block(pass, draw, 0, *block);
         }
     }
@@ -205,8 +211,10 @@ impl Pass {
     /// Sprites that the recorded frame draws, on the screen and into the ring.
     pub fn drawn(&self) -> [u64; 2] {
         let count = |draws: &[(Draw, u32)]| draws.iter().map(|(d, _)| u64::from(d.count)).sum();
-        let (ring, screen) = self.draws.split_at(self.pictured);
-        [count(screen), count(ring)]
+        [
+            count(&self.draws[self.cast..]),
+            count(&self.draws[..self.pictured]),
+        ]
     }
 
     /// Bytes of the ring's pictures.
@@ -234,7 +242,7 @@ impl Pass {
         let slots = slots_a_side(sight_m).pow(2);
         self.instances = instances_texture(device, self.scene.rows(sight_m));
         self.blocks = Blocks::new(device, slots, self.exposed_span);
-        self.draws = Vec::with_capacity(4 * slots);
+        self.draws = Vec::with_capacity(BLOCKS_A_SLOT * slots);
         self.found = Vec::with_capacity(slots);
         self.sprites_group = sprites_group(
             device,

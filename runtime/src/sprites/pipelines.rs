@@ -7,6 +7,7 @@ use welkin_pack::field::MOST_DEPTH;
 use super::outline::Outline;
 use super::station::{self, RingUniforms, SpriteView};
 use super::{formation, instances, locks};
+use crate::clouds::shadow;
 use crate::device::config::Output;
 use crate::device::context::{Context, Shader};
 use crate::device::layouts::{entry, texture};
@@ -14,6 +15,7 @@ use crate::device::map::target;
 use crate::device::pipeline::{Drawing, depth_state, multisample_state};
 use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
+use crate::params::{SkyModel, SkyParams};
 
 /// Bytes from one view or block to the next: what every device takes as an offset.
 pub const STRIDE: u64 = 256;
@@ -91,7 +93,32 @@ pub(crate) struct GroupLayouts {
     pub ring: wgpu::BindGroupLayout,
 }
 
-/// The pipelines of one sky model.
+/// What lies behind sprites, and what they fade into far away.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Behind {
+    pub sky: SkyModel,
+    /// Whether a sea lies below the horizon.
+    pub sea: bool,
+}
+
+impl Behind {
+    /// How many there are.
+    pub const COUNT: usize = 2 * SkyModel::ALL.len();
+
+    pub fn of(params: &SkyParams) -> Behind {
+        Behind {
+            sky: params.sky,
+            sea: params.sea,
+        }
+    }
+
+    /// Its place among them.
+    pub fn index(self) -> usize {
+        2 * self.sky as usize + usize::from(self.sea)
+    }
+}
+
+/// The pipelines before one of them.
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     /// Sprites onto the target.
@@ -100,6 +127,9 @@ pub(crate) struct Pipelines {
     pub picture: wgpu::RenderPipeline,
     /// The ring onto the target.
     pub ring: wgpu::RenderPipeline,
+    /// Shadows onto the ground, once they were asked for.
+    cast: Option<wgpu::RenderPipeline>,
+    shader: Shader,
 }
 
 impl GroupLayouts {
@@ -214,7 +244,39 @@ impl Pipelines {
             sprites: on_screen(["vs_sprite", "fs_sprite"], sprites, list),
             picture: context.pipeline(shader, &into_picture),
             ring: on_screen(["vs_ring", "fs_ring"], ring, strip),
+            cast: None,
+            shader: shader.clone(),
         }
+    }
+
+    /// Makes the pipeline of shadows on the ground if it is not there yet.
+    pub fn load_cast(&mut self, context: &Context, groups: &GroupLayouts) {
+        let component = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::Zero,
+            dst_factor: wgpu::BlendFactor::OneMinusSrc,
+            operation: wgpu::BlendOperation::Add,
+        };
+        let targets = [Some(wgpu::ColorTargetState {
+            format: shadow::FORMAT,
+            blend: Some(wgpu::BlendState {
+                color: component,
+                alpha: component,
+            }),
+            write_mask: wgpu::ColorWrites::ALL,
+        })];
+        let entries = ["vs_sprite_cast", "fs_sprite_cast"];
+        let drawing = Drawing {
+            primitive: primitive(wgpu::PrimitiveTopology::TriangleList),
+            ..Drawing::new(entries, Some(&groups.sprites), &targets)
+        };
+        let shader = &self.shader;
+        self.cast
+            .get_or_insert_with(|| context.pipeline(shader, &drawing));
+    }
+
+    /// That pipeline.
+    pub fn cast(&self) -> Option<&wgpu::RenderPipeline> {
+        self.cast.as_ref()
     }
 }
 

@@ -32,7 +32,7 @@ pub struct Scene {
     /// The lowest and the highest edge of a cloud, in metres.
     pub heights_m: [f64; 2],
     /// How far sprites reach over the sides of their blocks, in metres.
-    overhang_m: f32,
+    pub overhang_m: f32,
     slots: Vec<Slot>,
     slots_a_side: usize,
     locks: Locks,

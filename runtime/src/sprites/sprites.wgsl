@@ -182,6 +182,23 @@ fn sprite_flash(place: vec3f) -> vec3f {
     return uniforms.sprites.flash * exp2(-dot(away, away));
 }
 
+// What is left of clouds at the rim of sight.
+fn sprite_rim(distance: f32) -> f32 {
+    return clamp((uniforms.sprites.distance_m - distance) * uniforms.sprites.rim_per_m, 0.0, 1.0);
+}
+
+// Far away one billboard a cloud takes the place of its sprites.
+fn sprite_drawn(instance: SpriteInstance, distance: f32) -> f32 {
+    let near = clamp((uniforms.sprites.billboards_m - distance) * uniforms.sprites.change_per_m, 0.0, 1.0);
+    return select(near, 1.0 - near, instance.is_billboard);
+}
+
+// How much of a sprite is there so far from its centre, by its cloud's forming and its height in it.
+fn sprite_there(instance: SpriteInstance, amount: f32, offset: vec3f, up: f32) -> f32 {
+    let places = vec2f(length(instance.from_cloud + offset), length(instance.from_cloud)) / instance.cloud_radius;
+    return sprite_formed(amount, places.x, places.y) * mix(instance.low.a, instance.high.a, up);
+}
+
 // A vertex of a cell's outline; x and y in half sides, y up.
 fn sprite_outline(cell: u32, vertex: u32) -> vec2f {
     let number = cell * 8u + vertex;
@@ -215,11 +232,9 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     let before = select(dot(facing, -middle), distance, instance.lies_flat) / radius;
     var opacity = mix(1.0, max(meets, 0.0), locked) * smoothstep(0.0, SPRITE_NEAR, before);
 
-    // Far away: the rim of sight, where clouds take the colour of what is behind them before they go, and the change from sprites to one billboard a cloud.
-    let rim = clamp((own.distance_m - distance) * own.rim_per_m, 0.0, 1.0);
-    opacity *= min(SPRITE_RIM_OPAQUE * rim, 1.0);
-    let near = clamp((own.billboards_m - distance) * own.change_per_m, 0.0, 1.0);
-    opacity *= select(near, 1.0 - near, instance.is_billboard);
+    // At the rim of sight clouds take the colour of what is behind them before they go.
+    let rim = sprite_rim(distance);
+    opacity *= min(SPRITE_RIM_OPAQUE * rim, 1.0) * sprite_drawn(instance, distance);
 
     let amount = sprite_amount(instance.cloud);
     opacity *= sprite_block.opacity * own.opacity;
@@ -242,9 +257,7 @@ fn sprite_vertex(index: u32) -> SpriteVaryings {
     let direction = place / max(away, 1e-3);
     let up = clamp(0.5 + 0.5 * offset.y / instance.half_size.y, 0.0, 1.0);
 
-    let places = vec2f(length(instance.from_cloud + offset), length(instance.from_cloud)) / instance.cloud_radius;
-    let formed = sprite_formed(amount, places.x, places.y);
-    opacity *= formed * mix(instance.low.a, instance.high.a, up);
+    opacity *= sprite_there(instance, amount, offset, up);
     let clearness = sprite_clearness(place, away) * rim;
     let tint = clearness * mix(vec3f(1.0), uniforms.clouds.tint, cloud_tint(direction));
     var shade: SpriteShade;
@@ -314,12 +327,57 @@ fn fs_sprite(in: SpriteVaryings) -> @location(0) vec4f {
     return vec4f(max(colour, vec3f(0.0)), 1.0) * (texel.g * saturate(in.light.w));
 }
 
+// A vertex of a shadow.
+struct SpriteCast {
+    @builtin(position) position: vec4f,
+    @location(0) uv: vec2f,
+    @location(1) @interpolate(flat) level: f32,
+    @location(2) opacity: f32,
+}
+
+// A sprite that faces sun or moon, laid on the ground along its light. CPU part: cast.rs.
+@vertex
+fn vs_sprite_cast(@builtin(vertex_index) index: u32) -> SpriteCast {
+    let instance = sprite_instance(index >> sprite_block.vertices_log2);
+    let middle = sprite_block.origin + instance.centre;
+    let distance = length(middle);
+    let amount = sprite_amount(instance.cloud);
+    var opacity = min(SPRITE_RIM_OPAQUE * sprite_rim(distance), 1.0) * sprite_drawn(instance, distance);
+    opacity *= sprite_block.opacity * uniforms.sprites.opacity;
+    if opacity * amount <= 0.0 {
+        return SpriteCast(vec4f(0.0, 0.0, 0.0, -1.0), vec2f(0.0), 0.0, 0.0);
+    }
+    let texels = sprite_view.cell_texels * sprite_view.texel_m / (2.0 * sqrt(instance.half_size.x * instance.half_size.y));
+    let level = max(log2(max(texels, 1e-6)), 0.0);
+    let spread = 1.0 + exp2(level + 1.0) / sprite_view.cell_texels;
+    let outline = sprite_corner(instance.cell, index & ((1u << sprite_block.vertices_log2) - 1u));
+    let corner = clamp(outline * spread, vec2f(-1.0), vec2f(1.0));
+    let offset = sprite_axes(instance, uniforms.sprites.light_direction) * (corner * instance.half_size);
+    let up = clamp(0.5 + 0.5 * offset.y / instance.half_size.y, 0.0, 1.0);
+    let place = vec4f(middle + offset, 1.0);
+    let clip = vec4f(dot(place, sprite_view.clip_x), dot(place, sprite_view.clip_y), 0.5, 1.0);
+    let cell = vec2f(f32(instance.cell & 3u), f32(instance.cell >> 2u));
+    let uv = (cell + vec2f(0.5, -0.5) * corner + 0.5) * 0.25;
+    return SpriteCast(clip, uv, level, opacity * sprite_there(instance, amount, offset, up));
+}
+
+// What it takes of the light.
+@fragment
+fn fs_sprite_cast(in: SpriteCast) -> @location(0) f32 {
+    return textureSampleLevel(sheet_texture, clamp_sampler, in.uv, in.level).g * saturate(in.opacity);
+}
+
 // The dome behind the sprites, if no other method's is: clear but for the thin upper layer of the packed method.
 fn sprites_layer(direction: vec3f, narrowing: f32) -> vec4f {
     if !UPPER_LAYER {
         return vec4f(0.0);
     }
     let hit = dome_intersect(direction);
-    let veil = packed_veil(hit, cloud_level(hit, narrowing));
+    let veil = packed_veil(hit.plane, cloud_level(hit, narrowing));
     return vec4f(packed_white(cloud_tint(direction), direction), veil * cloud_clearness(direction));
+}
+
+// What that upper layer hides of sun or moon from the middle of a texel of the shadows.
+fn sprites_hidden(texel: vec2f) -> f32 {
+    return packed_veil(shadow_plane(0, texel), shadow_level(0));
 }

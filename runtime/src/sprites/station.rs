@@ -23,8 +23,8 @@ uniforms! {
         pixel_rad: f32,
         /// Texels a side of a cell of the sheet.
         cell_texels: f32,
-        /// Nothing.
-        _pad: f32,
+        /// A texel of the ground's shadows, m.
+        texel_m: f32,
     }
 
     /// One of two rings that are cross-faded.
@@ -121,7 +121,7 @@ pub struct Station {
     /// Unit direction towards sun or moon.
     pub sun: Vec3,
     /// Numbers that the look of all clouds depends on.
-    pub look: [f32; 10],
+    pub look: [f32; 11],
 }
 
 impl Station {

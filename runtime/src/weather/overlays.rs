@@ -51,6 +51,7 @@ impl Overlays {
             shading,
             sky: SkyModel::Table,
             weather: true,
+            sea: false,
         };
         let shader = self.shader.get_or_insert_with(|| Shader::new(dome));
         if shown.rain > 0 {

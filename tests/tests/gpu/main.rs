@@ -26,6 +26,7 @@ mod placed_stars;
 mod purity;
 mod robust;
 mod scene_light;
+mod sea;
 mod shadows;
 mod sky_light;
 mod skybox;

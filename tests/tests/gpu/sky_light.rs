@@ -150,6 +150,39 @@ fn so_is_that_of_a_perez_sky() {
     }
 }
 
+/// What comes up from a sea, with the glitter of the sun, and single waves that stand for none.
+#[test]
+fn so_is_that_over_a_sea() {
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    for (name, time) in TIMES {
+        for cover in [0.0, 1.0] {
+            let params = SkyParams {
+                cover,
+                upper_layer: 0.0,
+                sea: true,
+                time,
+                ..SkyParams::default()
+            };
+            let light = sky.light(&params, 0.0);
+            let picture = drawn(&mut sky, &params, 0.0);
+            let at = |light: &[Vec3; COUNT], normal: Vec3| {
+                let terms = basis(normal.as_dvec3().to_array());
+                let pairs = light.iter().zip(terms);
+                luminance(pairs.map(|(c, t)| *c * t as f32).sum())
+            };
+            // A wall that faces the glitter has several times what lies flat.
+            let flat = at(&picture, Vec3::Y);
+            let off = NORMALS.map(|normal| {
+                let [found, seen] = [&light.ambient, &picture].map(|light| at(light, normal));
+                (found - seen).abs() / seen.max(flat)
+            });
+            let off = off.into_iter().fold(0.0, f32::max);
+            println!("sea, {name} {cover}: {off:.3}");
+            assert!(off < 0.12, "{name} {cover}: {off}");
+        }
+    }
+}
+
 /// With the sun's light added, what lies flat under a clear noon has what the disc in the picture gives.
 #[test]
 fn the_light_of_the_sun_is_that_of_its_disc() {

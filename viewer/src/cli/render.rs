@@ -4,15 +4,15 @@ use std::path::PathBuf;
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{ArgMatches, Args};
+use welkin_runtime::SkyParams;
 use welkin_runtime::params::within;
-use welkin_runtime::{Method, SkyParams};
 use welkin_viewer::frame::Target;
 use welkin_viewer::headless::View;
 use welkin_viewer::save::target_for;
 
 use super::export::{ExportArgs, Shot};
 use super::gpu::GpuArgs;
-use super::settings::{LIT, SKY, SettingArgs};
+use super::settings::{SKY, SettingArgs};
 use super::values::size;
 
 #[derive(Debug, Args)]
@@ -33,10 +33,10 @@ pub struct RenderArgs {
     pub oktas: Option<f32>,
     /// Write the clouds' shadows on the ground too: the share of direct light, black where none comes through, north at the
     /// top. A file of that name is replaced
-    #[arg(long, value_name = "FILE.png", value_parser = PathBufValueParser::new().try_map(png_name), help_heading = LIT)]
+    #[arg(long, value_name = "FILE.png", value_parser = PathBufValueParser::new().try_map(png_name), help_heading = SKY)]
     pub shadow: Option<PathBuf>,
     /// Side of the square around the viewer that the shadows cover, in metres, 1 to 1000000
-    #[arg(long, value_name = "M", requires = "shadow", default_value_t = SHADOW_EXTENT_M, value_parser = shadow_extent_m, allow_hyphen_values = true, help_heading = LIT)]
+    #[arg(long, value_name = "M", requires = "shadow", default_value_t = SHADOW_EXTENT_M, value_parser = shadow_extent_m, allow_hyphen_values = true, help_heading = SKY)]
     pub shadow_extent: f32,
     /// Draw lines between the stars of ten constellations over a picture of a --date
     #[arg(long, help_heading = SKY)]
@@ -47,7 +47,7 @@ pub struct RenderArgs {
     pub gpu: GpuArgs,
 }
 
-/// As far as the lowest layer's texture reaches, about.
+/// About as far as the low clouds' texture reaches.
 const SHADOW_EXTENT_M: f32 = 8_000.0;
 
 impl RenderArgs {
@@ -89,8 +89,7 @@ impl RenderArgs {
         }
         self.refuse_for_radiance()?;
         self.refuse_lines()?;
-        let shadow = self.shadow.as_ref().map(|_| ("shadow", Method::Lit));
-        self.settings.refuse_other_methods(shadow.as_slice())
+        self.settings.refuse_other_methods()
     }
 
     /// Lines are drawn over one picture, and know where stars stand by a date alone.

@@ -13,7 +13,7 @@ use super::given::{belongs, is_given};
 /// Heading of the six parameters of Roden and Parberry.
 pub const SKY: &str = "Sky, each from 0 to 1";
 /// Heading of what only [`Method::Lit`] knows.
-pub const LIT: &str = "Clouds of --method lit";
+const LIT: &str = "Clouds of --method lit";
 const SHARED: &str = "Clouds of one method";
 
 /// The settings that a command line gives.
@@ -59,6 +59,9 @@ impl SettingArgs {
     /// # Errors
     /// Which option it is, and whose.
     pub fn refuse_others(&self) -> Result<(), String> {
+        if self.is_given("waves") && !self.settings.params.sea {
+            return Err(belongs("waves", "--sea", "the ground", "add --sea"));
+        }
         if self.settings.params.sky == SkyModel::Table {
             let mut own = KEYS.iter().filter(|key| is_of_perez(key));
             return match own.find(|key| self.is_given(key.name)) {
@@ -84,14 +87,11 @@ impl SettingArgs {
     ///
     /// # Errors
     /// Which option it is, and whose; or that its value is not for this method.
-    pub fn refuse_other_methods(&self, more: &[(&str, Method)]) -> Result<(), String> {
+    pub fn refuse_other_methods(&self) -> Result<(), String> {
         let method = self.settings.params.method;
         let options = options().into_iter();
         let options = options.filter(|(option, _)| self.is_given(option));
-        let more = more.iter().map(|(option, owner)| (*option, vec![*owner]));
-        let mut all = options
-            .map(|(option, keys)| (option, owners(&keys)))
-            .chain(more);
+        let mut all = options.map(|(option, keys)| (option, owners(&keys)));
         match all.find(|(_, owners)| !owners.contains(&method)) {
             None => self.fault.clone(),
             Some((option, owners)) => {
@@ -219,7 +219,9 @@ fn heading(key: &Key) -> Option<&'static str> {
 
 /// Whether only the sky of Perez looks at a setting.
 fn is_of_perez(key: &Key) -> bool {
-    key.group == Group::Air && !key.applies(&Settings::default())
+    let mut perez = Settings::default();
+    perez.params.sky = SkyModel::Perez;
+    key.group == Group::Air && !key.applies(&Settings::default()) && key.applies(&perez)
 }
 
 /// The sentence of an option: whose it is, what it does, its range, its default.

@@ -41,7 +41,6 @@ pub mod light;
 mod look;
 pub mod map;
 pub mod paper;
-pub mod shadow;
 
 use glam::{DMat2, DVec2, Vec2, Vec3, Vec3Swizzles};
 use welkin_pack::LayerKind;
@@ -77,6 +76,13 @@ pub const PART: Part = Part {
     ],
     structs: &[LitLayerUniforms::WGSL, LitUniforms::WGSL],
     wgsl: include_str!("lit.wgsl"),
+};
+
+/// What its clouds hide of the light from places on the ground.
+pub const SHADOW: Part = Part {
+    constants: &[],
+    structs: &[],
+    wgsl: include_str!("shadow.wgsl"),
 };
 
 uniforms! {

@@ -19,6 +19,52 @@ fn octaves_alpha(thickness: f32, exponent: f32) -> f32 {
     return cloud_soften(1.0 - exp2(exponent * max(thickness, 0.0)), OCTAVE_EDGE);
 }
 
+// The low dome: its opacity, what the finer read adds to an amount, and what the map leaves of sunlight or has as a grey.
+fn octaves_low(plane: vec2f, level: f32) -> vec3f {
+    let octaves = uniforms.octaves;
+    let uv = octaves_uv(octaves.low, plane);
+    let at_level = level + octaves.low.lod_bias;
+    let cloud = octaves_map_at(uv, at_level);
+    // Where there is no cloud nothing is roughened.
+    if cloud.g <= 0.0 {
+        return vec3f(0.0);
+    }
+    let finer = octaves_map_at(uv * OCTAVE_FINER + OCTAVE_FINER_START, at_level + OCTAVE_FINER_LEVEL).r - 0.5;
+    let alpha = clamp(cloud.g + octaves.roughness * finer * cloud.g * (1.0 - cloud.g), 0.0, 1.0);
+    return vec3f(alpha, finer, cloud.a);
+}
+
+// Opacity of the middle dome.
+fn octaves_middle(plane: vec2f, level: f32) -> f32 {
+    let middle = uniforms.octaves.middle;
+    return OCTAVE_MIDDLE_OPACITY * octaves_map_at(octaves_uv(middle, plane), level + middle.lod_bias).b;
+}
+
+// Opacity of the high dome.
+fn octaves_high(plane: vec2f, level: f32) -> f32 {
+    let high = uniforms.octaves.high;
+    let uv = octaves_bent(octaves_uv(high, plane));
+    let thickness = octaves_map_at(uv, level + high.lod_bias + OCTAVE_VEIL_LEVEL).r - high.threshold;
+    let full = clamp(thickness * uniforms.octaves.high_contrast, 0.0, 1.0);
+    return OCTAVE_HIGH_OPACITY * full * full * (3.0 - 2.0 * full);
+}
+
+// Share of the light of sun or moon that the clouds hide from the middle of a texel of the shadows.
+fn octaves_hidden(texel: vec2f) -> f32 {
+    let octaves = uniforms.octaves;
+    var open = 1.0;
+    if octaves.low.threshold < 1.0 {
+        open = 1.0 - octaves_low(shadow_plane(0, texel), shadow_level(0)).x;
+    }
+    if octaves.middle.threshold < 1.0 {
+        open *= 1.0 - octaves_middle(shadow_plane(1, texel), shadow_level(1));
+    }
+    if octaves.high.threshold < 1.0 {
+        open *= 1.0 - octaves_high(shadow_plane(2, texel), shadow_level(2));
+    }
+    return 1.0 - open;
+}
+
 // Radiance and opacity of the clouds along a unit direction above the horizon.
 fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let octaves = uniforms.octaves;
@@ -31,31 +77,20 @@ fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
     var body = 0.0;
     var clear = 1.0;
     if octaves.low.threshold < 1.0 {
-        let uv = octaves_uv(octaves.low, hit.plane);
-        let at_level = level + octaves.low.lod_bias;
-        let cloud = octaves_map_at(uv, at_level);
-        // Where there is no cloud nothing is roughened.
-        if cloud.g > 0.0 {
-            let finer = octaves_map_at(uv * OCTAVE_FINER + OCTAVE_FINER_START, at_level + OCTAVE_FINER_LEVEL).r - 0.5;
-            let alpha = clamp(cloud.g + octaves.roughness * finer * cloud.g * (1.0 - cloud.g), 0.0, 1.0);
-            grey = mix(thin_grey, cloud.a + OCTAVE_ROUGH_GREY * finer, alpha);
-            let passed = octaves.base_depth + max(OCTAVE_ROUGH_DEPTH * finer - log2(max(cloud.a, OCTAVE_LEAST_LIGHT)), 0.0);
-            depth = mix(OCTAVE_THIN_DEPTH, passed, alpha);
-            body = alpha;
-            clear = 1.0 - alpha;
+        let low = octaves_low(hit.plane, level);
+        if low.x > 0.0 {
+            grey = mix(thin_grey, low.z + OCTAVE_ROUGH_GREY * low.y, low.x);
+            let passed = octaves.base_depth + max(OCTAVE_ROUGH_DEPTH * low.y - log2(max(low.z, OCTAVE_LEAST_LIGHT)), 0.0);
+            depth = mix(OCTAVE_THIN_DEPTH, passed, low.x);
+            body = low.x;
+            clear = 1.0 - low.x;
         }
     }
     if octaves.middle.threshold < 1.0 {
-        let uv = octaves_uv(octaves.middle, hit.plane);
-        let alpha = OCTAVE_MIDDLE_OPACITY * octaves_map_at(uv, level + octaves.middle.lod_bias).b;
-        clear *= 1.0 - alpha;
+        clear *= 1.0 - octaves_middle(hit.plane, level);
     }
     if octaves.high.threshold < 1.0 {
-        let uv = octaves_bent(octaves_uv(octaves.high, hit.plane));
-        let thickness = octaves_map_at(uv, level + octaves.high.lod_bias + OCTAVE_VEIL_LEVEL).r - octaves.high.threshold;
-        let full = clamp(thickness * octaves.high_contrast, 0.0, 1.0);
-        let alpha = OCTAVE_HIGH_OPACITY * full * full * (3.0 - 2.0 * full);
-        clear *= 1.0 - alpha;
+        clear *= 1.0 - octaves_high(hit.plane, level);
     }
     if clear >= 1.0 {
         return vec4f(0.0);

@@ -169,7 +169,7 @@ const DETAIL_SCALE: f64 = 3.618;
 /// Turn of the noise against the photo, in radians.
 const NOISE_TURN: f64 = 0.6543;
 /// Height of the upper layer over the ground, in metres, for its parallax.
-const UPPER_HEIGHT_M: f64 = 8000.0;
+pub(crate) const UPPER_HEIGHT_M: f64 = 8000.0;
 /// Scale of the upper layer to the east and to the south, in tiles a height: streaks lie east to west.
 const UPPER_SCALE: [f64; 2] = [0.11, 0.43];
 

@@ -6,6 +6,15 @@ fn packed_fold(grey: f32) -> f32 {
     return grey - 0.75 * (beyond + sqrt(beyond * beyond + PACKED_FOLD * PACKED_FOLD));
 }
 
+// Opacity where the amount and the detail are these, and what thick clouds add to grey and opacity: lines 15-17, 19-21, 25.
+fn packed_paper_opacity(amount: f32, detail: f32) -> vec2f {
+    let packed = uniforms.packed;
+    var alpha = (amount - packed.threshold) * packed.contrast;       // lines 15-17
+    alpha *= mix(detail, 1.0, packed.smoothness);                    // line 19
+    let thick = packed.density * max(alpha, 0.0) * 2.0;              // lines 20-21
+    return vec2f(cloud_soften(clamp(alpha + thick, 0.0, 1.0), PACKED_EDGE), thick);
+}
+
 fn packed_paper_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let packed = uniforms.packed;
     let hit = dome_intersect(direction);
@@ -16,14 +25,10 @@ fn packed_paper_layer(direction: vec3f, narrowing: f32) -> vec4f {
     let tint = cloud_tint(direction);
 
     let amount = photo + noise * (1.0 - photo);                      // line 14
-    var alpha = (amount - packed.threshold) * packed.contrast;       // lines 15-17
-    var grey = amount + detail * (1.0 - amount);                     // line 18
-    alpha *= mix(detail, 1.0, packed.smoothness);                    // line 19
-    let thick = packed.density * max(alpha, 0.0) * 2.0;              // lines 20-21
-    grey += thick;
-    alpha = clamp(alpha + thick, 0.0, 1.0);                          // line 25
+    let opacity = packed_paper_opacity(amount, detail);
+    var grey = amount + detail * (1.0 - amount) + opacity.y;         // lines 18, 20-21
     grey = clamp(packed_fold(grey), 0.0, 1.0);                        // lines 22-25
     let tinted = mix(vec3f(grey), uniforms.clouds.tint, tint);       // lines 26-27
     let radiance = cloud_light(tinted, 1.0);                          // line 28
-    return packed_over_veil(hit, level, direction, tint, vec4f(radiance, cloud_soften(alpha, PACKED_EDGE)));
+    return packed_over_veil(hit, level, direction, tint, vec4f(radiance, opacity.x));
 }

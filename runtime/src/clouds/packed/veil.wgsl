@@ -5,9 +5,9 @@ fn packed_sample(uv: vec2f, level: f32) -> vec4f {
 }
 
 // Opacity of the thin upper layer.
-fn packed_veil(hit: DomeHit, level: f32) -> f32 {
+fn packed_veil(plane: vec2f, level: f32) -> f32 {
     let packed = uniforms.packed;
-    let wisp = packed_sample(hit.plane * packed.upper_scale + packed.upper_offset, level + packed.upper_lod_bias).g;
+    let wisp = packed_sample(plane * packed.upper_scale + packed.upper_offset, level + packed.upper_lod_bias).g;
     return packed.upper_layer * UPPER_OPACITY * smoothstep(UPPER_THRESHOLD, 1.0, wisp);
 }
 

@@ -2,9 +2,8 @@
 
 use super::Pass;
 use crate::device::context::Context;
-use crate::params::SkyModel;
 use crate::sprites::frame::{Frame, cell_texels};
-use crate::sprites::pipelines::{STRIDE, one_of, pictures};
+use crate::sprites::pipelines::{Behind, STRIDE, one_of, pictures};
 use crate::sprites::ring::{Ring, Step};
 use crate::sprites::scene::planes;
 use crate::sprites::station::{self, SpriteView, Station};
@@ -114,11 +113,11 @@ impl Pass {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         shared: &wgpu::BindGroup,
-        sky: SkyModel,
+        behind: Behind,
         pictures: Pictures,
     ) {
         let target = self.pictures[pictures.target].as_ref();
-        let (Some(texture), Some(pipelines)) = (target, &self.pipelines[sky as usize]) else {
+        let (Some(texture), Some(pipelines)) = (target, &self.pipelines[behind.index()]) else {
             return;
         };
         let load = if pictures.goes_on {

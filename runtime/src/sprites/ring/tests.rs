@@ -12,7 +12,7 @@ fn station(place_m: DVec3) -> Station {
         distance_m: 30_000.0,
         heights_m: [900.0, 2500.0],
         sun: Vec3::Y,
-        look: [0.5; 10],
+        look: [0.5; 11],
     }
 }
 

@@ -193,7 +193,7 @@ fn a_ray_meets_the_picture_where_it_was_drawn() {
         distance_m: 30_000.0,
         heights_m: [900.0, 2000.0],
         sun: Vec3::Y,
-        look: [0.0; 10],
+        look: [0.0; 11],
     };
     let (uniforms, shows) = Ring::new(station).uniforms(station.place_m);
     assert!(shows);
@@ -223,7 +223,7 @@ fn a_ray_leaves_through_the_nearest_side_wherever_the_viewer_is() {
         distance_m: 30_000.0,
         heights_m: [900.0, 2000.0],
         sun: Vec3::Y,
-        look: [0.0; 10],
+        look: [0.0; 11],
     };
     let made = Ring::new(station(0.0, 0.0));
     for (x, z) in [(0.0, 0.0), (1200.0, 0.0), (-800.0, 850.0), (0.0, -1199.0)] {

@@ -1,4 +1,5 @@
 use welkin_controls::{Group, Input, KEYS, Key, Settings};
+use welkin_runtime::Method;
 use welkin_runtime::params::{FbmParams, SkyModel, Tonemap};
 
 use super::*;
@@ -207,7 +208,6 @@ fn options_of_another_method_are_refused_and_say_whose_they_are() {
         ("--k1", "0.5", vec!["lit"]),
         ("--k2", "0.5", vec!["lit"]),
         ("--m", "2", vec!["lit"]),
-        ("--shadow", "s.png", vec!["lit"]),
         ("--behind", "fbm", vec!["sprites"]),
         ("--behind-cover", "0.5", vec!["sprites"]),
         ("--sight", "40000", vec!["sprites"]),

@@ -1,32 +1,37 @@
-//! Shadows that the clouds of [`crate::Method::Lit`] throw on the ground, for the application's own shaders.
+//! Shadows that clouds throw on the ground, for the application's own shaders.
 //!
 //! # Theory
-//! Light from sun or moon comes to a place as far as a viewer who stands there sees them through the clouds: the product of
-//! what the layers leave open, `1 - C_i`, in that one direction. Mukhina and Bezgodov (see [`crate::clouds::lit`]) shade clouds by clouds
-//! with the same coverages (eq. 5); the ground they leave out.
+//! Light from sun or moon comes to a place as far as a viewer who stands there sees them through the clouds: the product of what the layers leave
+//! open, `1 - C_i`, in that one direction. No paper has the shadows of clouds on the ground; Mukhina and Bezgodov (see [`crate::clouds::lit`])
+//! shade clouds by clouds with the same coverages (eq. 5).
 //!
-//! # Changes versus the paper
+//! Each method says what its layers hide of a direction (`NAME_hidden` in its WGSL) from where the viewer stands: a place so many metres away
+//! sees a layer so many of its heights moved. Sprites are drawn from the sun onto the ground, each multiplying what it leaves of the light
+//! (`crate::sprites::cast`).
+//!
+//! # What is left out
 //! - The viewer's dome goes with the viewer. So the shadow of a cloud lies where a viewer has that cloud before the sun, and
 //!   on a plane ground, height 0, all shadows of a layer are as far from their clouds.
-//! - Sides of clouds shade as a viewer sees them before the sun.
-//! - Clouds fade into the haze of the horizon, and their shadows with them: light from below the horizon meets no cloud.
-//! - The sun is a point, its penumbra left out: it would be a texel or two wide.
+//! - Sides of clouds of `lit` shade as a viewer sees them before the sun.
+//! - Clouds of domes fade into the haze of the horizon, and their shadows with them: light from below the horizon meets no cloud. Sprites throw shadows
+//!   as far as the viewer sees them.
+//! - The sun is a point, its penumbra left out: of clouds 1 km high it is 9 m wide.
 //!
 //! # Practice
-//! A texture of 256x256 R8 texels, drawn off screen with six reads a texel for three layers. Rows go from north to south, columns from west to
+//! A texture of 256x256 R8 texels, drawn off screen with the reads of a pixel a texel. Rows go from north to south, columns from west to
 //! east; the middle of texel (i, j) is at `centre + extent ((i + 0.5) / 256 - 0.5)`, and so on for j. The centre is the viewer's place,
 //! moved to whole texels: as the viewer walks, shadows stay where they are. A level of detail is chosen for the texels.
 //!
 //! ```no_run
 //! # fn f(device: &wgpu::Device, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, sky: &mut welkin_runtime::Sky, uniforms: &wgpu::Buffer, layout: &wgpu::BindGroupLayout, sampler: &wgpu::Sampler) {
 //! use welkin_runtime::shadow;
-//! use welkin_runtime::{Camera, Method, SkyParams};
+//! use welkin_runtime::{Camera, SkyParams};
 //! // Once: the function joins the shader of the ground, which multiplies its direct light by
 //! // cloud_shadow(shadow_map, linear_clamp_sampler, ground.shadow_area, position.xz)
 //! let ground = format!("{}\n{}", shadow::WGSL, "/* the application's shader */");
 //! # drop(ground);
 //! // Each frame:
-//! let params = SkyParams { method: Method::Lit, shadow_extent_m: 8000.0, ..SkyParams::default() };
+//! let params = SkyParams { shadow_extent_m: 8000.0, ..SkyParams::default() };
 //! sky.prepare(queue, encoder, &params, &Camera::looking(0.0, 0.1, 1.0, [1280, 720]), 12.5);
 //! if let Some(shadow) = sky.shadow() {
 //!     queue.write_buffer(uniforms, 0, bytemuck::bytes_of(&shadow.area()));
@@ -44,15 +49,14 @@
 //! # }
 //! ```
 
-use glam::{DVec2, DVec3, Vec2, Vec3Swizzles};
+use glam::{DVec2, DVec3, Vec2, Vec3, Vec3Swizzles};
 
-use crate::clouds::lit::{self, LitUniforms, map};
 use crate::clouds::shared::CloudView;
-use crate::device::context::{Context, Shader};
-use crate::device::map::{draw, target};
+use crate::device::map::target;
+use crate::geometry::dome;
 use crate::geometry::part::Part;
 use crate::geometry::uniforms::uniforms;
-use crate::params::{MAX_LAYERS, Method, SkyParams};
+use crate::params::{MAX_LAYERS, SkyParams};
 
 /// Its part of the shader.
 pub const PART: Part = Part {
@@ -72,10 +76,14 @@ uniforms! {
         lod: f32,
     }
 
-    /// Shadows of the lit method's clouds.
+    /// Shadows of the clouds of the method that is shown.
     ShadowUniforms {
         /// Of each layer.
         layers: [ShadowLayer; MAX_LAYERS],
+        /// Nothing.
+        _pad: Vec3,
+        /// Share of the light that an overcast behind them hides.
+        shut: f32,
     }
 }
 
@@ -93,7 +101,7 @@ const EDGE: f32 = 0.05;
 #[derive(Clone, Copy, Debug)]
 pub struct Shadow<'a> {
     /// [`SIDE`]x[`SIDE`] texels, `R8Unorm`: 1 where all of the direct light comes through, 0 where none does. It may be
-    /// read by shaders and copied from, and is the same texture in every frame of a sky.
+    /// read by shaders and copied from, and is the same texture in every frame of a view, whatever the method.
     pub texture: &'a wgpu::Texture,
     /// Middle of the square that it covers: metres to the east and to the south of the world's origin.
     pub centre_m: [f32; 2],
@@ -121,9 +129,8 @@ pub(crate) struct Area {
 impl Area {
     /// The square of a frame, if it has one. `params` are in range, the viewer's place is in metres.
     pub fn of(params: &SkyParams, place_m: DVec3) -> Option<Area> {
-        let drawn = params.method == Method::Lit && params.shadow_extent_m > 0.0;
         let place_m = DVec2::new(place_m.x, place_m.z);
-        drawn.then(|| Area::about(place_m, params.shadow_extent_m))
+        (params.shadow_extent_m > 0.0).then(|| Area::about(place_m, params.shadow_extent_m))
     }
 
     /// The square about a place: its middle lies on whole texels.
@@ -135,70 +142,89 @@ impl Area {
             extent_m,
         }
     }
+
+    /// Side of a texel in metres.
+    pub fn texel_m(&self) -> f64 {
+        self.extent_m / f64::from(SIDE)
+    }
 }
 
-/// The shadows' share of the uniforms, all 0 without any. `params` are in range.
-pub fn uniforms(params: &SkyParams, view: &CloudView, lit: &LitUniforms) -> ShadowUniforms {
-    let mut shadow = ShadowUniforms::default();
+/// The layers of a method, as its shader asks for their shadows.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Layers {
+    /// Where sun or moon is seen on the dome's plane, in its heights: east and south.
+    pub light: DVec2,
+    /// Heights over the ground in metres; 0 for those that there are not.
+    pub heights_m: [f64; MAX_LAYERS],
+}
+
+impl Layers {
+    /// Layers of these heights on the dome of [`crate::geometry::dome`].
+    pub fn of_dome(sun: Vec3, heights_m: impl IntoIterator<Item = f64>) -> Layers {
+        Layers::new(dome::intersect(sun).position.xz(), heights_m)
+    }
+
+    /// Layers of these heights, at most [`MAX_LAYERS`].
+    pub fn new(light: Vec2, heights_m: impl IntoIterator<Item = f64>) -> Layers {
+        let mut layers = Layers {
+            light: light.as_dvec2(),
+            ..Layers::default()
+        };
+        for (slot, height_m) in layers.heights_m.iter_mut().zip(heights_m) {
+            *slot = height_m;
+        }
+        layers
+    }
+}
+
+/// The shadows' share of the uniforms, all 0 without any. `params` are in range; see [`ShadowUniforms`] for `shut`.
+pub(crate) fn uniforms(
+    params: &SkyParams,
+    view: &CloudView,
+    layers: &Layers,
+    shut: f32,
+) -> ShadowUniforms {
     let Some(area) = Area::of(params, view.place_m) else {
-        return shadow;
+        return ShadowUniforms::default();
+    };
+    let mut shadow = ShadowUniforms {
+        shut,
+        ..ShadowUniforms::default()
     };
     let viewer_m = DVec2::new(view.place_m.x, view.place_m.z);
     let corner_m = area.centre_m - viewer_m - 0.5 * area.extent_m;
-    let texel_m = area.extent_m / f64::from(SIDE);
-    let sun = lit.light_direction.as_dvec3();
-    let [f2, rest] = [lit.flattening_squared, lit.one_minus_squared].map(f64::from);
-    let plane = sun.xz() / (f2 + rest * sun.y * sun.y).sqrt();
-    let layers = lit::drawn(params).zip(&lit.layers);
-    for (seen, ((index, _), own)) in shadow.layers.iter_mut().zip(layers) {
-        let height_m = lit::height_m(params, index);
+    let heights_m = layers.heights_m.iter().filter(|height_m| **height_m > 0.0);
+    for (seen, &height_m) in shadow.layers.iter_mut().zip(heights_m) {
+        // The layer's axes are for a viewer who is so near to it; the ground is at height 0.
         let near = view.distance(height_m);
-        // The layer's axes are for a viewer who stands so near to it; the ground is at height 0.
-        let corner = (plane + corner_m / height_m) / near;
-        let texel = texel_m / (height_m * near);
-        let tiles = texel * f64::from(own.east_axis.x).hypot(f64::from(own.east_axis.y));
-        let level = (tiles * f64::from(map::SIDE)).log2() - f64::from(own.lod_bias);
+        let texel = area.texel_m() / (height_m * near);
         *seen = ShadowLayer {
-            corner: corner.as_vec2(),
+            corner: ((layers.light + corner_m / height_m) / near).as_vec2(),
             texel: texel as f32,
-            lod: level as f32,
+            // What a layer adds to levels is for a pixel.
+            lod: (texel / f64::from(view.pixel_rad)).log2() as f32,
         };
     }
     shadow
 }
 
-/// The pass on a device.
+/// The format of the shadows.
+pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+
+/// What the shadows are drawn into.
 #[derive(Debug)]
-pub(crate) struct Pass {
-    texture: wgpu::Texture,
-    view: wgpu::TextureView,
-    pipeline: wgpu::RenderPipeline,
+pub(crate) struct Target {
+    pub texture: wgpu::Texture,
+    pub view: wgpu::TextureView,
 }
 
-impl Pass {
-    pub fn new(context: &Context, shader: &Shader) -> Pass {
-        let (device, layouts) = (&context.device, &context.layouts);
-        let format = wgpu::TextureFormat::R8Unorm;
-        let texture = target(device, "cloud shadows", format, [SIDE, SIDE, 1], 1);
-        Pass {
+impl Target {
+    pub fn new(device: &wgpu::Device) -> Target {
+        let texture = target(device, "cloud shadows", FORMAT, [SIDE, SIDE, 1], 1);
+        Target {
             view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
-            pipeline: context.off_screen(shader, "fs_shadow", &layouts.lit, format),
             texture,
         }
-    }
-
-    pub fn texture(&self) -> &wgpu::Texture {
-        &self.texture
-    }
-
-    /// Records the pass; `own` is group 1 of the dome.
-    pub fn record(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        shared: &wgpu::BindGroup,
-        own: &wgpu::BindGroup,
-    ) {
-        draw(encoder, &self.view, &self.pipeline, [shared, own]);
     }
 }
 
