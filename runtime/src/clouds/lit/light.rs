@@ -55,12 +55,12 @@ pub(crate) fn mean_radiance(lit: &LitUniforms, clouds: &CloudUniforms) -> Vec3 {
     let (mut sum, mut clear) = (Vec3::ZERO, 1.0);
     for (index, layer) in lit.layers[..lit.count as usize].iter().enumerate() {
         let (mut whole, mut light, mut count) = (0.0, Vec3::ZERO, 0.0);
+        let shade = shade_from_above(lit, index);
         for amount in amounts(sided_at(lit, index)) {
             let thickness = (amount - layer.threshold).max(0.0);
             let alpha = layer.opacity * smoothstep(0.0, 1.0, layer.steepness * thickness);
             let [sunlit, skylit] = shares(lit, clouds, layer, amount);
-            let sunlit = sunlit * shade_from_above(lit, index);
-            light += alpha * (clouds.sunlight * sunlit + clouds.ambient * skylit);
+            light += alpha * (clouds.sunlight * (sunlit * shade) + clouds.ambient * skylit);
             whole += alpha;
             count += 1.0;
         }
