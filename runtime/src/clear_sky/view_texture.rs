@@ -38,6 +38,12 @@ impl ViewTexture {
         &self.written.insert((moment, lit)).1
     }
 
+    /// The light of a moment if it is the one that is there.
+    pub fn kept(&self, moment: &Lighting) -> Option<&LitSky> {
+        let kept = self.written.as_ref().filter(|(last, _)| last == moment);
+        kept.map(|(_, lit)| lit)
+    }
+
     fn write(&self, queue: &wgpu::Queue, lit: &LitSky) {
         let image = lit.view.image();
         let layout = wgpu::TexelCopyBufferLayout {

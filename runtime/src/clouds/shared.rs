@@ -181,6 +181,43 @@ pub fn uniforms(params: &SkyParams, light: &Light, texels: u32) -> CloudUniforms
     }
 }
 
+/// Clouds on average: away from the haze of the horizon, and as they are lit to all sides.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MeanCloud {
+    /// Opacity.
+    pub opacity: f32,
+    /// Radiance by the light of sun or moon.
+    pub sunlit: Vec3,
+    /// Radiance by all else.
+    pub skylit: Vec3,
+}
+
+impl MeanCloud {
+    /// By all light.
+    pub(crate) fn radiance(&self) -> Vec3 {
+        self.sunlit + self.skylit
+    }
+
+    /// Of shares of sunlight and of skylight.
+    pub(crate) fn of_shares(
+        clouds: &CloudUniforms,
+        opacity: f32,
+        [sunlit, skylit]: [f32; 2],
+    ) -> MeanCloud {
+        MeanCloud {
+            opacity,
+            sunlit: sunlit * clouds.sunlight,
+            skylit: skylit * clouds.ambient,
+        }
+    }
+}
+
+/// Shares of sunlight and of skylight in [`radiance`].
+pub(crate) fn shares_of_grey(grey: f32) -> [f32; 2] {
+    let bright = CORE + (1.0 - CORE) * grey;
+    [bright * bright, bright]
+}
+
 /// Radiance of a cloud of this grey, by the same line as the shader's.
 pub(crate) fn radiance(clouds: &CloudUniforms, grey: f32) -> Vec3 {
     let bright = CORE + (1.0 - CORE) * grey;

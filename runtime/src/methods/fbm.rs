@@ -7,7 +7,7 @@ use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::fbm::{self, coverage, map, pack};
 use crate::clouds::photo;
 use crate::clouds::shadow::Layers;
-use crate::clouds::shared::LOW_HEIGHT_M;
+use crate::clouds::shared::{LOW_HEIGHT_M, MeanCloud};
 use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
@@ -59,7 +59,7 @@ impl CloudMethod for Fbm {
         fbm::overcast(&uniforms.fbm, &uniforms.clouds, params.shading)
     }
 
-    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
+    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> MeanCloud {
         let spread = map::mean_and_spread(&pack.fbm).1;
         coverage::mean(&uniforms.fbm, &uniforms.clouds, params.shading, spread)
     }

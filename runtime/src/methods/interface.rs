@@ -8,7 +8,7 @@ use welkin_pack::Role;
 use crate::clear_sky::light::Light;
 use crate::clouds::coverage::Distributions;
 use crate::clouds::shadow::Layers;
-use crate::clouds::shared::{self, CloudView};
+use crate::clouds::shared::{self, CloudView, MeanCloud};
 use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
 use crate::frame::Uniforms;
@@ -84,8 +84,8 @@ pub(crate) trait CloudMethod: Sync {
         }
     }
 
-    /// Mean opacity of its clouds away from the haze of the horizon, and their mean radiance where [`CloudMethod::facing`] is 1.
-    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3);
+    /// Its clouds on average, where [`CloudMethod::facing`] is 1.
+    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> MeanCloud;
 
     /// The fraction of the sky in which its clouds have more than this opacity.
     fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32;

@@ -6,6 +6,7 @@ use welkin_pack::Role;
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::lit::{self, SHADOW, coverage, light, map, paper};
 use crate::clouds::shadow::Layers;
+use crate::clouds::shared::MeanCloud;
 use crate::clouds::{photo, shared};
 use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
@@ -84,12 +85,15 @@ impl CloudMethod for Lit {
         }
     }
 
-    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> (f32, Vec3) {
-        let radiance = match params.shading {
-            Shading::Scattered => light::mean_radiance(&uniforms.lit, &uniforms.clouds),
-            Shading::Paper => paper::mean_radiance(&uniforms.lit),
-        };
-        (coverage::mean_opacity(&uniforms.lit), radiance)
+    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> MeanCloud {
+        let opacity = coverage::mean_opacity(&uniforms.lit);
+        match params.shading {
+            Shading::Scattered => {
+                let shares = light::mean_shares(&uniforms.lit, &uniforms.clouds);
+                MeanCloud::of_shares(&uniforms.clouds, opacity, shares)
+            }
+            Shading::Paper => paper::mean(&uniforms.lit, opacity),
+        }
     }
 
     fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32 {

@@ -7,6 +7,7 @@ use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::octaves::{self, coverage, map};
 use crate::clouds::photo;
 use crate::clouds::shadow::Layers;
+use crate::clouds::shared::{self, MeanCloud};
 use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
@@ -51,16 +52,21 @@ impl CloudMethod for Octaves {
 
     fn overcast(&self, params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> Vec3 {
         match params.shading {
-            Shading::Scattered => coverage::mean_radiance(&uniforms.octaves, &uniforms.clouds),
+            Shading::Scattered => coverage::mean(&uniforms.octaves, &uniforms.clouds).radiance(),
             Shading::Paper => octaves::paper_overcast(&uniforms.octaves, &uniforms.clouds),
         }
     }
 
-    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
-        (
-            coverage::mean_opacity(&uniforms.octaves),
-            self.overcast(params, uniforms, pack),
-        )
+    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, _pack: &PackData) -> MeanCloud {
+        let (octaves, clouds) = (&uniforms.octaves, &uniforms.clouds);
+        match params.shading {
+            Shading::Scattered => coverage::mean(octaves, clouds),
+            Shading::Paper => MeanCloud::of_shares(
+                clouds,
+                coverage::mean_opacity(octaves),
+                shared::shares_of_grey(octaves::paper_grey(octaves)),
+            ),
+        }
     }
 
     fn covered(&self, shown: &Shown<'_>, opacity: f32) -> f32 {

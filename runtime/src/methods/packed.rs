@@ -6,7 +6,7 @@ use welkin_pack::Role;
 use super::interface::{CloudMethod, MapFrame, MapPass, MethodFrame, Shown};
 use crate::clouds::packed::{self, UPPER_HEIGHT_M, coverage, map, paper};
 use crate::clouds::shadow::Layers;
-use crate::clouds::shared::LOW_HEIGHT_M;
+use crate::clouds::shared::{LOW_HEIGHT_M, MeanCloud};
 use crate::device::context::{Context, Shader};
 use crate::device::layouts::Layouts;
 use crate::device::map::texture_bytes;
@@ -57,7 +57,7 @@ impl CloudMethod for Packed {
         }
     }
 
-    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
+    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> MeanCloud {
         let (packed, clouds) = (&uniforms.packed, &uniforms.clouds);
         coverage::mean(packed, clouds, params.shading, &pack.cloud_texels)
     }

@@ -5,6 +5,7 @@ use welkin_pack::Role;
 
 use super::interface::{CloudMethod, MethodFrame, Shown};
 use crate::clouds::shadow::Layers;
+use crate::clouds::shared::MeanCloud;
 use crate::clouds::{packed, shared};
 use crate::frame::Uniforms;
 use crate::geometry::part::Part;
@@ -78,14 +79,15 @@ impl CloudMethod for Sprites {
     }
 
     // From the ground clouds in space hide more of the sky than they stand over.
-    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> (f32, Vec3) {
+    fn mean(&self, params: &SkyParams, uniforms: &Uniforms, pack: &PackData) -> MeanCloud {
         let open = 1.0 - params.cover * params.sprites.formation;
         // Single heaps show more of their dark bases than a sheet does: measured.
         let heaps = HEAPS + (1.0 - HEAPS) * shared::overcast_weight(params.cover);
-        (
-            1.0 - open.powf(1.25),
-            self.overcast(params, uniforms, pack) * heaps,
-        )
+        MeanCloud {
+            opacity: 1.0 - open.powf(1.25),
+            sunlit: Vec3::ZERO,
+            skylit: self.overcast(params, uniforms, pack) * heaps,
+        }
     }
 
     // The field's clouds are ranked by the fraction of the ground that they cover.

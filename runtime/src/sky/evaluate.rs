@@ -130,7 +130,7 @@ impl PackData {
             self.sky.aerosol_depth(params.haze),
         );
         if params.sea {
-            let mean = MeanClouds::new(self, clamped, &uniforms);
+            let mean = MeanClouds::new(self, clamped, &uniforms).mean;
             let [depth, height] = shared::MIDDLING;
             let to_all_sides = shared::scattered(&uniforms.clouds, None, depth, height)[0];
             let light = sea::SeaLight {

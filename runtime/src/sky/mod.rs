@@ -148,7 +148,7 @@ impl Sky {
     ///
     /// Clouds count by their mean at these parameters; rain, lightning, rays, a skybox and stars do not.
     pub fn light(&self, params: &SkyParams, seconds: f64) -> SkyLight {
-        self.common.pack_data.light(params, seconds)
+        self.view.light(&self.common, params, seconds)
     }
 
     /// Parameters with the exposure that is drawn with: what [`SkyParams::auto_exposure`] finds, if it is on.

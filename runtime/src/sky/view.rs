@@ -14,6 +14,7 @@ use crate::geometry::camera::Camera;
 use crate::geometry::math::finite;
 use crate::methods::interface::MapFrame;
 use crate::params::{Method, SkyModel, SkyParams};
+use crate::sky::light::SkyLight;
 #[cfg(feature = "sprites")]
 use crate::sprites::{self, layer::SpriteLayer, pipelines::Behind};
 #[cfg(feature = "weather")]
@@ -183,6 +184,16 @@ impl View {
             weather,
             shadow: area,
         });
+    }
+
+    /// See [`Sky::light`](super::Sky::light).
+    pub(super) fn light(&self, common: &Common, params: &SkyParams, seconds: f64) -> SkyLight {
+        let (data, clamped) = (&common.pack_data, params.clamped());
+        let moment = (data.moment(&clamped, seconds), [clamped.haze, clamped.moon]);
+        match self.sky.kept(&moment) {
+            Some(lit) => data.light_under(lit, &clamped, seconds),
+            None => data.light_under(&data.lit_sky_at(&moment), &clamped, seconds),
+        }
     }
 
     /// Draws the prepared frame into a pass whose attachments are as the configuration said.

@@ -243,6 +243,31 @@ fn a_sky_is_exposed_by_its_light() {
     }
 }
 
+/// A frame of the same moment spares the sky its making, and changes nothing.
+#[test]
+fn light_is_the_same_before_and_after_a_frame_and_at_another_moment() {
+    let mut sky = gpu::sky(pack::default_pack(), FORMAT);
+    for time in [0.3, 0.5, 0.9] {
+        let params = SkyParams {
+            time,
+            ..SkyParams::default()
+        };
+        let before = sky.light(&params, 3.0);
+        gpu::prepare(
+            &mut sky,
+            &params,
+            &Camera::looking(0.0, 0.0, 1.0, [8, 8]),
+            3.0,
+        );
+        assert_eq!(sky.light(&params, 3.0), before);
+        let hazy = SkyParams {
+            haze: 1.0,
+            ..params
+        };
+        assert!(sky.light(&hazy, 3.0) != before);
+    }
+}
+
 /// Clouds take the sun's light, and by night there is the moon's alone.
 #[test]
 fn luminaries_go_with_clouds_and_hours() {

@@ -4,9 +4,9 @@ use glam::Vec3;
 use welkin_pack::Texture;
 
 use super::map::{Octaves, weights};
-use super::{FULL, FbmUniforms, radiance_at};
+use super::{FULL, FbmUniforms, lights_at};
 use crate::clouds::histogram::Histogram;
-use crate::clouds::shared::{CloudUniforms, inverse_roughen, inverse_smoothstep};
+use crate::clouds::shared::{CloudUniforms, MeanCloud, inverse_roughen, inverse_smoothstep};
 use crate::geometry::math::smoothstep;
 use crate::params::Shading;
 
@@ -30,26 +30,33 @@ pub(crate) fn covered(sums: &Histogram, fbm: &FbmUniforms, opacity: f32) -> f32 
     })
 }
 
-/// Mean opacity and radiance of its clouds: the sum of octaves is about normally distributed.
+/// Its clouds on average: the sum of octaves is about normally distributed.
 pub(crate) fn mean(
     fbm: &FbmUniforms,
     clouds: &CloudUniforms,
     shading: Shading,
     spread: f32,
-) -> (f32, Vec3) {
+) -> MeanCloud {
     /// Nodes a standard deviation, and how many each way.
     const NODES: [i32; 2] = [4, 12];
     let [fine, most] = NODES;
-    let (mut opacity, mut light, mut whole) = (0.0, Vec3::ZERO, 0.0);
+    let (mut opacity, mut sums, mut whole) = (0.0, [Vec3::ZERO; 2], 0.0);
     for i in -most..=most {
         let deviations = i as f32 / fine as f32;
         let weight = (-0.5 * deviations * deviations).exp();
         let amount = fbm.mean + spread * deviations;
         let cover = (fbm.slope * amount + fbm.intercept).clamp(0.0, 1.0);
         let alpha = weight * smoothstep(0.0, FULL, cover);
-        light += alpha * radiance_at(fbm, clouds, shading, amount);
+        for (sum, light) in sums.iter_mut().zip(lights_at(fbm, clouds, shading, amount)) {
+            *sum += alpha * light;
+        }
         opacity += alpha;
         whole += weight;
     }
-    (opacity / whole, light / opacity.max(1e-6))
+    let [sunlit, skylit] = sums.map(|sum| sum / f32::max(opacity, 1e-6));
+    MeanCloud {
+        opacity: opacity / whole,
+        sunlit,
+        skylit,
+    }
 }

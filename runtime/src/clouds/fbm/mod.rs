@@ -214,11 +214,16 @@ fn normal_quantile(share: f32) -> f32 {
 
 /// Radiance of an overcast sky far away: every height along the ray is the mean one.
 pub fn overcast(fbm: &FbmUniforms, clouds: &CloudUniforms, shading: Shading) -> Vec3 {
-    radiance_at(fbm, clouds, shading, fbm.mean)
+    lights_at(fbm, clouds, shading, fbm.mean).into_iter().sum()
 }
 
-/// Radiance of a place with this sum of octaves, where the sky around has its mean: heights along the ray are those of the map.
-fn radiance_at(fbm: &FbmUniforms, clouds: &CloudUniforms, shading: Shading, amount: f32) -> Vec3 {
+/// Radiance by sunlight and by skylight of a place with this sum of octaves, where the sky around has its mean: heights along the ray are those of the map.
+fn lights_at(
+    fbm: &FbmUniforms,
+    clouds: &CloudUniforms,
+    shading: Shading,
+    amount: f32,
+) -> [Vec3; 2] {
     let height = fbm.ray_slope * amount + fbm.ray_intercept;
     let inside = map::DEPTHS
         .iter()
@@ -232,9 +237,12 @@ fn radiance_at(fbm: &FbmUniforms, clouds: &CloudUniforms, shading: Shading, amou
         Shading::Scattered => {
             let cover = (fbm.slope * amount + fbm.intercept).clamp(0.0, 1.0);
             let [sunlit, skylit] = scattered(clouds, None, DEPTH * shade, THICK * cover);
-            fbm.lit * clouds.sunlight * sunlit + colour * clouds.ambient * skylit
+            [
+                fbm.lit * clouds.sunlight * sunlit,
+                colour * clouds.ambient * skylit,
+            ]
         }
-        Shading::Paper => colour * (clouds.sunlight + clouds.ambient),
+        Shading::Paper => [colour * clouds.sunlight, colour * clouds.ambient],
     }
 }
 

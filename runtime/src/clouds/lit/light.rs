@@ -50,23 +50,25 @@ pub fn overcast(lit: &LitUniforms, clouds: &CloudUniforms) -> Vec3 {
     clouds.sunlight * (sunlit * shade_from_above(lit, 0)) + clouds.ambient * skylit
 }
 
-/// Mean radiance of the clouds that are there, towards all sides: every layer shows through those below it.
-pub(crate) fn mean_radiance(lit: &LitUniforms, clouds: &CloudUniforms) -> Vec3 {
-    let (mut sum, mut clear) = (Vec3::ZERO, 1.0);
+/// Shares of sunlight and skylight that the clouds that are there send to all sides: every layer shows through those below it.
+pub(crate) fn mean_shares(lit: &LitUniforms, clouds: &CloudUniforms) -> [f32; 2] {
+    let (mut sums, mut clear) = ([0.0; 2], 1.0);
     for (index, layer) in lit.layers[..lit.count as usize].iter().enumerate() {
-        let (mut whole, mut light, mut count) = (0.0, Vec3::ZERO, 0.0);
-        let shade = shade_from_above(lit, index);
+        let (mut whole, mut light, mut count) = (0.0, [0.0; 2], 0.0);
         for amount in amounts(sided_at(lit, index)) {
             let thickness = (amount - layer.threshold).max(0.0);
             let alpha = layer.opacity * smoothstep(0.0, 1.0, layer.steepness * thickness);
-            let [sunlit, skylit] = shares(lit, clouds, layer, amount);
-            light += alpha * (clouds.sunlight * (sunlit * shade) + clouds.ambient * skylit);
+            for (sum, share) in light.iter_mut().zip(shares(lit, clouds, layer, amount)) {
+                *sum += alpha * share;
+            }
             whole += alpha;
             count += 1.0;
         }
         let opacity = whole / count;
-        sum += light / whole.max(1e-6) * (clear * opacity);
+        let shown = clear * opacity / f32::max(whole, 1e-6);
+        sums[0] += light[0] * shade_from_above(lit, index) * shown;
+        sums[1] += light[1] * shown;
         clear *= 1.0 - opacity;
     }
-    sum / (1.0 - clear).max(1e-6)
+    sums.map(|sum| sum / f32::max(1.0 - clear, 1e-6))
 }

@@ -3,6 +3,7 @@
 use glam::{Vec3, Vec3Swizzles};
 
 use super::{LitLayerUniforms, LitUniforms, SHADED_BY_LAYER, amounts, layer_opacity};
+use crate::clouds::shared::MeanCloud;
 use crate::geometry::math::{normal_share, smoothstep};
 use crate::geometry::part::{Part, Value};
 
@@ -87,17 +88,22 @@ fn mean_fall(sun: Vec3) -> f32 {
     flat * normal_share(place) + spread * density
 }
 
-/// Mean radiance of the clouds that are there, where [`facing`] is 1: every layer shows through those below it.
-pub(crate) fn mean_radiance(lit: &LitUniforms) -> Vec3 {
-    let (mut sum, mut clear) = (Vec3::ZERO, 1.0);
+/// The clouds that are there on average, where [`facing`] is 1: every layer shows through those below it.
+pub(crate) fn mean(lit: &LitUniforms, opacity: f32) -> MeanCloud {
+    let (mut sums, mut clear) = ([0.0; 2], 1.0);
     for (index, layer) in lit.layers[..lit.count as usize].iter().enumerate() {
         let [opacity, shade] = layer_means(layer, lit.m);
         let shade = shade * shade_from_above(lit, index);
-        let radiance = lit.light * shade + lit.ambient * (AMBIENT[0] + AMBIENT[1] * shade);
-        sum += radiance * (clear * opacity);
+        sums[0] += shade * (clear * opacity);
+        sums[1] += (AMBIENT[0] + AMBIENT[1] * shade) * (clear * opacity);
         clear *= 1.0 - opacity;
     }
-    sum / (1.0 - clear).max(1e-6)
+    let [sunlit, skylit] = sums.map(|sum| sum / f32::max(1.0 - clear, 1e-6));
+    MeanCloud {
+        opacity,
+        sunlit: sunlit * lit.light,
+        skylit: skylit * lit.ambient,
+    }
 }
 
 /// Share of sunlight along a direction: see paper.wgsl.

@@ -1,13 +1,11 @@
 //! How much of the sky the octaves method covers: its map holds shares of its own distribution, so every amount is equally likely, and three
 //! domes and the finer read are independent.
 
-use glam::Vec3;
-
 use super::{
     BODY_HEIGHTS, EDGE, HIGH_OPACITY, MIDDLE_OPACITY, OctaveDome, OctaveUniforms, THIN, THIN_DEPTH,
 };
 use crate::clouds::shared::{
-    CloudUniforms, behind, inverse_roughen, inverse_soften, lit, scattered, softened,
+    CloudUniforms, MeanCloud, behind, inverse_roughen, inverse_soften, scattered, softened,
 };
 use crate::geometry::math::smoothstep;
 
@@ -78,10 +76,10 @@ pub(crate) fn mean_opacity(octaves: &OctaveUniforms) -> f32 {
     1.0 - (1.0 - low) * clear_of_thin(octaves)
 }
 
-/// Mean radiance of its clouds towards all sides: what the low dome shows of its depth, by how opaque it is.
-pub(crate) fn mean_radiance(octaves: &OctaveUniforms, clouds: &CloudUniforms) -> Vec3 {
+/// Its clouds on average, as they are lit to all sides: what the low dome shows of its depth, by how opaque it is.
+pub(crate) fn mean(octaves: &OctaveUniforms, clouds: &CloudUniforms) -> MeanCloud {
     let clear = clear_of_thin(octaves);
-    let (mut light, mut opacity) = (Vec3::ZERO, 0.0);
+    let (mut sums, mut opacity) = ([0.0; 2], 0.0);
     for i in 0..NODES {
         let amount = (i as f32 + 0.5) / NODES as f32;
         let alpha = low_opacity(octaves, (amount - octaves.low.threshold).max(0.0));
@@ -90,10 +88,13 @@ pub(crate) fn mean_radiance(octaves: &OctaveUniforms, clouds: &CloudUniforms) ->
         let depth = THIN_DEPTH + (passed - THIN_DEPTH) * alpha;
         let height = BODY_HEIGHTS[0] + (BODY_HEIGHTS[1] - BODY_HEIGHTS[0]) * alpha;
         let whole = 1.0 - (1.0 - alpha) * clear;
-        light += whole * lit(clouds, scattered(clouds, None, depth, height));
+        for (sum, share) in sums.iter_mut().zip(scattered(clouds, None, depth, height)) {
+            *sum += whole * share;
+        }
         opacity += whole;
     }
-    light / opacity.max(1e-6)
+    let shares = sums.map(|sum| sum / f32::max(opacity, 1e-6));
+    MeanCloud::of_shares(clouds, opacity / NODES as f32, shares)
 }
 
 fn low_opacity(octaves: &OctaveUniforms, thickness: f32) -> f32 {

@@ -253,11 +253,13 @@ fn exponent(sharpness: f32) -> f32 {
 
 /// Radiance of an overcast sky far away: the low dome where the map has its mean, without relief, as the paper shades it.
 pub fn paper_overcast(octaves: &OctaveUniforms, clouds: &CloudUniforms) -> Vec3 {
+    radiance(clouds, paper_grey(octaves))
+}
+
+/// Its grey.
+pub(crate) fn paper_grey(octaves: &OctaveUniforms) -> f32 {
     let thickness = (0.5 - octaves.low.threshold.max(0.0)).max(0.0);
-    radiance(
-        clouds,
-        (octaves.edge_grey - octaves.darkening * thickness).clamp(0.0, 1.0),
-    )
+    (octaves.edge_grey - octaves.darkening * thickness).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]

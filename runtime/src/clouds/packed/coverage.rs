@@ -1,12 +1,11 @@
 //! How much of the sky the packed method covers: its opacity is a function of photo, noise and detail at places that have nothing to do
 //! with each other.
 
-use glam::Vec3;
 use welkin_pack::Image;
 
 use super::{EDGE, FOOT, FULL, PackedUniforms, Place, UPPER_OPACITY, UPPER_THRESHOLD, paper, veil};
 use crate::clouds::histogram::Histogram;
-use crate::clouds::shared::{CloudUniforms, behind, inverse_soften, radiance};
+use crate::clouds::shared::{CloudUniforms, MeanCloud, behind, inverse_soften, shares_of_grey};
 use crate::geometry::math::smoothstep;
 use crate::params::Shading;
 
@@ -67,25 +66,28 @@ impl Texels {
     }
 }
 
-/// Mean opacity and radiance of its clouds, over texels of the packed texture that have nothing to do with each other. Radiance is that
-/// towards all sides.
+/// Its clouds on average, over texels of the packed texture that have nothing to do with each other.
 pub(crate) fn mean(
     packed: &PackedUniforms,
     clouds: &CloudUniforms,
     shading: Shading,
     texels: &[[f32; 3]],
-) -> (f32, Vec3) {
-    if shading == Shading::Paper {
-        return paper::mean(packed, clouds, texels);
-    }
-    let (mut opacity, mut light) = (0.0, Vec3::ZERO);
+) -> MeanCloud {
+    let (mut opacity, mut sums) = (0.0, [0.0; 2]);
     for &texel in texels {
-        let place = Place::of(packed, texel);
-        let lower = place.opacity(packed);
-        let veil = veil(packed, texel[1]);
-        light +=
-            place.light(packed, clouds) * lower + radiance(clouds, 1.0) * (veil * (1.0 - lower));
-        opacity += lower + veil * (1.0 - lower);
+        let (lower, shares) = match shading {
+            Shading::Scattered => {
+                let place = Place::of(packed, texel);
+                (place.opacity(packed), place.shares(packed, clouds))
+            }
+            Shading::Paper => paper::place(packed, texel),
+        };
+        let veil = veil(packed, texel[1]) * (1.0 - lower);
+        for ((sum, share), white) in sums.iter_mut().zip(shares).zip(shares_of_grey(1.0)) {
+            *sum += share * lower + white * veil;
+        }
+        opacity += lower + veil;
     }
-    (opacity / texels.len() as f32, light / opacity.max(1e-6))
+    let shares = sums.map(|sum| sum / f32::max(opacity, 1e-6));
+    MeanCloud::of_shares(clouds, opacity / texels.len() as f32, shares)
 }

@@ -248,7 +248,7 @@ pub fn uniforms(params: &SkyParams, view: &CloudView, sun: Vec3) -> PackedUnifor
 /// Radiance of an overcast sky far away, where single clouds cannot be told apart: the light of a place where photo, noise and detail have
 /// their means, and all around it.
 pub(crate) fn overcast(packed: &PackedUniforms, clouds: &CloudUniforms, means: [f32; 3]) -> Vec3 {
-    Place::of(packed, means).light(packed, clouds)
+    lit(clouds, Place::of(packed, means).shares(packed, clouds))
 }
 
 /// A place of the layer where clouds have the same height all the way to the sun.
@@ -275,14 +275,13 @@ impl Place {
         softened((FULL * (1.0 - (-halvings).exp2())).min(1.0), EDGE)
     }
 
-    /// Radiance towards all sides.
-    fn light(&self, packed: &PackedUniforms, clouds: &CloudUniforms) -> Vec3 {
+    /// Shares of sunlight and skylight that it sends to all sides.
+    fn shares(&self, packed: &PackedUniforms, clouds: &CloudUniforms) -> [f32; 2] {
         let over = packed.shut + 0.5 * packed.erosion;
         let above = (self.height - DEPTHS - over).max(Vec3::ZERO);
         let thickness = (self.eaten - packed.shut).max(0.0);
         let passed = OWN * thickness + SHARES.dot(above);
-        let shares = scattered(clouds, None, packed.extinction * passed, thickness);
-        lit(clouds, shares)
+        scattered(clouds, None, packed.extinction * passed, thickness)
     }
 }
 

@@ -2,9 +2,9 @@
 
 use glam::Vec3;
 
-use super::{EDGE, PackedUniforms, veil};
+use super::{EDGE, PackedUniforms};
 use crate::clouds::histogram::Histogram;
-use crate::clouds::shared::{CloudUniforms, inverse_soften, radiance, softened};
+use crate::clouds::shared::{CloudUniforms, inverse_soften, radiance, shares_of_grey, softened};
 use crate::geometry::part::{Part, Value};
 
 /// Its part of the shader.
@@ -29,25 +29,17 @@ pub(crate) fn overcast(packed: &PackedUniforms, clouds: &CloudUniforms, means: [
     radiance(clouds, grey.clamp(0.0, 1.0))
 }
 
-/// See [`super::coverage::mean`].
-pub(super) fn mean(
-    packed: &PackedUniforms,
-    clouds: &CloudUniforms,
-    texels: &[[f32; 3]],
-) -> (f32, Vec3) {
-    let (mut opacity, mut light) = (0.0, Vec3::ZERO);
-    for &[photo, noise, detail] in texels {
-        let amount = photo + noise * (1.0 - photo);
-        let smooth = detail + (1.0 - detail) * packed.smoothness;
-        let alpha = ((amount - packed.threshold) * packed.contrast * smooth).max(0.0);
-        let thick = 2.0 * packed.density * alpha;
-        let grey = fold(amount + detail * (1.0 - amount) + thick).clamp(0.0, 1.0);
-        let lower = softened((alpha + thick).min(1.0), EDGE);
-        let veil = veil(packed, noise);
-        light += radiance(clouds, grey) * lower + radiance(clouds, 1.0) * (veil * (1.0 - lower));
-        opacity += lower + veil * (1.0 - lower);
-    }
-    (opacity / texels.len() as f32, light / opacity.max(1e-6))
+/// Opacity of the lower layer where photo, noise and detail are these, and shares of sunlight and skylight.
+pub(super) fn place(packed: &PackedUniforms, [photo, noise, detail]: [f32; 3]) -> (f32, [f32; 2]) {
+    let amount = photo + noise * (1.0 - photo);
+    let smooth = detail + (1.0 - detail) * packed.smoothness;
+    let alpha = ((amount - packed.threshold) * packed.contrast * smooth).max(0.0);
+    let thick = 2.0 * packed.density * alpha;
+    let grey = fold(amount + detail * (1.0 - amount) + thick).clamp(0.0, 1.0);
+    (
+        softened((alpha + thick).min(1.0), EDGE),
+        shares_of_grey(grey),
+    )
 }
 
 /// The share of places where the lower layer has more than this opacity.
