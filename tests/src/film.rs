@@ -1,5 +1,6 @@
 //! What clouds cover: their opacity, from two skies that differ only behind them.
 
+use welkin_pack::Field;
 use welkin_runtime::{Camera, Sky, SkyParams};
 
 use crate::{gpu, pack};
@@ -19,6 +20,21 @@ impl Film {
         Film {
             black: gpu::sky(&pack::in_skybox(0.0), FORMAT),
             white: gpu::sky(&pack::in_skybox(1.0), FORMAT),
+        }
+    }
+
+    /// The same with clouds in space.
+    ///
+    /// # Panics
+    /// If the packs do not take the field.
+    pub fn with_field(field: &Field) -> Film {
+        let sky = |radiance| {
+            let pack = pack::in_skybox(radiance).with_field(field.clone());
+            gpu::sky(&pack.expect("the field is sound"), FORMAT)
+        };
+        Film {
+            black: sky(0.0),
+            white: sky(1.0),
         }
     }
 

@@ -32,11 +32,18 @@ pub enum Output {
     Display,
     /// sRGB-encoded display light, for plain unorm targets.
     Encoded,
+    /// Opacity of the clouds alone, three times, for targets that take numbers as they are.
+    Opacity,
 }
 
 impl Output {
     /// Every kind of output.
-    pub const ALL: [Output; 3] = [Output::Radiance, Output::Display, Output::Encoded];
+    pub const ALL: [Output; 4] = [
+        Output::Radiance,
+        Output::Display,
+        Output::Encoded,
+        Output::Opacity,
+    ];
 }
 
 /// Looks at the configuration and chooses what the shader writes.
@@ -64,6 +71,19 @@ pub(crate) fn output(config: &SkyConfig, features: wgpu::Features) -> Result<Out
         }
     }
     Ok(output)
+}
+
+/// What the shader writes where opacity is asked for.
+///
+/// # Errors
+/// [`SkyError::TargetFormat`] for targets that the hardware encodes, too.
+pub(crate) fn opacity(config: &SkyConfig, features: wgpu::Features) -> Result<Output, SkyError> {
+    match output(config, features)? {
+        Output::Display => Err(SkyError::TargetFormat {
+            format: config.target_format,
+        }),
+        _ => Ok(Output::Opacity),
+    }
 }
 
 /// What a target wants to be given, if it can show a sky at all.

@@ -44,12 +44,13 @@ pub fn compose<'a>(
     text
 }
 
-fn constants(build: Build) -> [(&'static str, Value); 10] {
+fn constants(build: Build) -> [(&'static str, Value); 11] {
     let far_depth = if build.reversed_depth { 0.0 } else { 1.0 };
     [
         ("OUTPUT_RADIANCE", Value::U32(Output::Radiance as u32)),
         ("OUTPUT_DISPLAY", Value::U32(Output::Display as u32)),
         ("OUTPUT_ENCODED", Value::U32(Output::Encoded as u32)),
+        ("OUTPUT_OPACITY", Value::U32(Output::Opacity as u32)),
         ("OUTPUT", Value::U32(build.output as u32)),
         ("SKYBOX", Value::Bool(build.skybox)),
         ("CATALOGUE", Value::Bool(build.catalogue)),

@@ -3,7 +3,7 @@
 use welkin_pack::{Pack, Role};
 use wgpu::util::DeviceExt;
 
-use crate::device::config::{SkyConfig, output, step};
+use crate::device::config::{Output, SkyConfig, step};
 use crate::device::context::Context;
 use crate::device::layouts::Layouts;
 use crate::device::shader::Build;
@@ -16,6 +16,10 @@ use crate::params::Method;
 use crate::parts;
 #[cfg(feature = "sprites")]
 use crate::sprites::layer::Stock;
+
+/// Looks at the configuration and chooses what the shader writes: [`output`](crate::device::config::output) or
+/// [`opacity`](crate::device::config::opacity).
+pub(super) type ChooseOutput = fn(&SkyConfig, wgpu::Features) -> Result<Output, SkyError>;
 
 /// What all views of a sky share.
 #[derive(Debug)]
@@ -51,6 +55,7 @@ impl Common {
         config: SkyConfig,
         pack: &Pack,
         dome_step_deg: Option<f32>,
+        output: ChooseOutput,
     ) -> Result<Common, SkyError> {
         let pack_data = PackData::new(pack)?;
         let features = device.features();

@@ -16,11 +16,11 @@ mod view;
 
 use welkin_pack::Pack;
 
-use self::common::Common;
+use self::common::{ChooseOutput, Common};
 pub use self::light::{Luminary, SkyLight};
 pub use self::view::View;
 use crate::clouds::shadow::Shadow;
-use crate::device::config::SkyConfig;
+use crate::device::config::{SkyConfig, opacity, output};
 use crate::error::SkyError;
 use crate::geometry::camera::Camera;
 use crate::params::{Method, SkyModel, SkyParams};
@@ -43,7 +43,21 @@ impl Sky {
         config: SkyConfig,
         pack: &Pack,
     ) -> Result<Sky, SkyError> {
-        Sky::build(device, queue, config, pack, None)
+        Sky::build(device, queue, config, pack, None, output)
+    }
+
+    /// A sky that draws the opacity of its clouds, 0 to 1, in red, green and blue, and nothing else: what a picture of the same parameters
+    /// shows of them, pixel by pixel. Weather, stars, sun and flare are left out.
+    ///
+    /// # Errors
+    /// As [`Sky::new`], and [`SkyError::TargetFormat`] for a target that the hardware encodes (`*Srgb`).
+    pub fn of_opacity(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        config: SkyConfig,
+        pack: &Pack,
+    ) -> Result<Sky, SkyError> {
+        Sky::build(device, queue, config, pack, None, opacity)
     }
 
     /// As [`Sky::new`], drawn on the papers' dome mesh with a vertex every `step_deg` degrees: the same
@@ -59,7 +73,7 @@ impl Sky {
         pack: &Pack,
         step_deg: f32,
     ) -> Result<Sky, SkyError> {
-        Sky::build(device, queue, config, pack, Some(step_deg))
+        Sky::build(device, queue, config, pack, Some(step_deg), output)
     }
 
     fn build(
@@ -68,8 +82,9 @@ impl Sky {
         config: SkyConfig,
         pack: &Pack,
         dome_step_deg: Option<f32>,
+        output: ChooseOutput,
     ) -> Result<Sky, SkyError> {
-        let common = Common::new(device, queue, config, pack, dome_step_deg)?;
+        let common = Common::new(device, queue, config, pack, dome_step_deg, output)?;
         Ok(Sky {
             view: View::new(&common),
             common,

@@ -51,6 +51,9 @@ fn fs_sky(in: Varyings) -> @location(0) vec4f {
         }
         clouds = cloud_layer(direction, narrowing);
     }
+    if OUTPUT == OUTPUT_OPACITY {
+        return vec4f(vec3f(clouds.a), 1.0);
+    }
     var radiance = clouds.rgb;
     if !ASK_OPAQUE || clouds.a < 1.0 {
         radiance = mix(behind_clouds(direction, select(in.pixel, in.position.xy, DOME_MESH), 1.0 - clouds.a), clouds.rgb, clouds.a);

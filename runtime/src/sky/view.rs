@@ -7,13 +7,14 @@ use crate::clear_sky::flares;
 use crate::clear_sky::table::SkyView;
 use crate::clear_sky::view_texture::ViewTexture;
 use crate::clouds::shadow::{self, Shadow};
+use crate::device::config::Output;
 use crate::device::context::Context;
 use crate::device::pipeline::Variant;
 use crate::frame::Uniforms;
 use crate::geometry::camera::Camera;
 use crate::geometry::math::finite;
 use crate::methods::interface::MapFrame;
-use crate::params::{Method, SkyModel, SkyParams};
+use crate::params::{Method, SkyModel, SkyParams, WeatherParams};
 use crate::sky::light::SkyLight;
 #[cfg(feature = "sprites")]
 use crate::sprites::{self, layer::SpriteLayer, pipelines::Behind};
@@ -109,7 +110,7 @@ impl View {
         camera: &Camera,
         seconds: f64,
     ) {
-        let clamped = params.clamped();
+        let clamped = drawn(params.clamped(), common.context.build.output);
         let data = &common.pack_data;
         let moment = (data.moment(&clamped, seconds), [clamped.haze, clamped.moon]);
         let lit = self
@@ -287,6 +288,18 @@ impl View {
     fn current(&self) -> Option<(Prepared, &MethodPipelines)> {
         let prepared = self.prepared?;
         Some((prepared, self.pipelines[prepared.method as usize].as_ref()?))
+    }
+}
+
+/// Parameters without what a picture of opacity has nothing of.
+fn drawn(params: SkyParams, output: Output) -> SkyParams {
+    match output {
+        Output::Radiance | Output::Display | Output::Encoded => params,
+        Output::Opacity => SkyParams {
+            flare: 0.0,
+            weather: WeatherParams::default(),
+            ..params
+        },
     }
 }
 

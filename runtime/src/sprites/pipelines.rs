@@ -204,7 +204,7 @@ pub(crate) fn one_of(buffer: &wgpu::Buffer, bytes: usize) -> wgpu::BindingResour
 pub(crate) fn picture_format(output: Output) -> wgpu::TextureFormat {
     match output {
         Output::Encoded => wgpu::TextureFormat::Rgba8Unorm,
-        Output::Radiance | Output::Display => wgpu::TextureFormat::Rgba8UnormSrgb,
+        Output::Radiance | Output::Display | Output::Opacity => wgpu::TextureFormat::Rgba8UnormSrgb,
     }
 }
 

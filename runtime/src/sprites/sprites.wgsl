@@ -319,6 +319,9 @@ fn vs_ring_sprite(@builtin(vertex_index) index: u32) -> SpriteVaryings {
 @fragment
 fn fs_sprite(in: SpriteVaryings) -> @location(0) vec4f {
     let texel = textureSampleLevel(sheet_texture, clamp_sampler, in.uv, in.level);
+    if OUTPUT == OUTPUT_OPACITY {
+        return vec4f(texel.g * saturate(in.light.w));
+    }
     let greys = texel.rba - 0.5;
     let sun = dot(vec4f(greys, 1.0 - texel.g), in.sun);
     let sky = dot(greys, in.sky);

@@ -20,6 +20,7 @@ mod lit;
 mod maps;
 mod motion;
 mod oktas;
+mod opacity;
 mod parallax;
 mod pictures;
 mod placed_stars;
