@@ -50,6 +50,16 @@ impl<'a> Environment<'a> {
         })
     }
 
+    /// The opacity of a pack's clouds instead of its sky.
+    ///
+    /// # Errors
+    /// [`GpuError::Sky`].
+    pub fn of_opacity(gpu: &'a Gpu, pack: &Pack) -> Result<Environment<'a>, GpuError> {
+        Ok(Environment {
+            stage: Stage::of_opacity(gpu, pack)?,
+        })
+    }
+
     /// The sky as a panorama of `width` by `width / 2` texels: see [`equirect`]. Of the view's camera its place alone counts.
     ///
     /// # Errors

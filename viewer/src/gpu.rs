@@ -61,15 +61,11 @@ impl Gpu {
         )
     }
 
-    /// A texture to draw into and to read back.
+    /// That a frame of this size can be drawn and read back.
     ///
     /// # Errors
     /// [`GpuError::FrameSize`].
-    pub fn target(
-        &self,
-        target: Target,
-        [width, height]: [u32; 2],
-    ) -> Result<wgpu::Texture, GpuError> {
+    pub fn verify_size(&self, target: Target, [width, height]: [u32; 2]) -> Result<(), GpuError> {
         let limits = self.device.limits();
         let max_side = limits.max_texture_dimension_2d;
         // All of it has to fit into the buffer that it is read back through, rows padded.
@@ -78,16 +74,25 @@ impl Gpu {
         let fits = [width, height]
             .iter()
             .all(|side| (1..=max_side).contains(side));
-        if !(fits && bytes() <= limits.max_buffer_size) {
-            let adapter = self.adapter.clone();
-            return Err(GpuError::FrameSize {
-                width,
-                height,
-                max_side,
-                max_pixels,
-                adapter,
-            });
+        if fits && bytes() <= limits.max_buffer_size {
+            return Ok(());
         }
+        Err(GpuError::FrameSize {
+            width,
+            height,
+            max_side,
+            max_pixels,
+            adapter: self.adapter.clone(),
+        })
+    }
+
+    /// A texture to draw into and to read back.
+    ///
+    /// # Errors
+    /// [`GpuError::FrameSize`].
+    pub fn target(&self, target: Target, size: [u32; 2]) -> Result<wgpu::Texture, GpuError> {
+        self.verify_size(target, size)?;
+        let [width, height] = size;
         Ok(self.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("frame"),
             size: wgpu::Extent3d {

@@ -1,10 +1,11 @@
 //! Frames without a window: draws one into a texture and reads it back.
 
 use welkin_pack::Pack;
-use welkin_runtime::{Camera, Sky, SkyConfig, SkyParams};
+use welkin_runtime::{Camera, Sky, SkyConfig, SkyLight, SkyParams};
 
-use crate::frame::{Frame, Pixels, Target, padded};
+use crate::frame::{Frame, Pixels, Target};
 use crate::gpu::{Gpu, GpuError};
+use crate::read_back::Texels;
 
 /// What to look at: the sky's parameters, the camera and the moment.
 #[derive(Clone, Debug)]
@@ -63,6 +64,26 @@ impl<'a> Stage<'a> {
         })
     }
 
+    /// The opacity of a pack's clouds instead of its sky: [`Sky::of_opacity`], in all channels of [`Target::Linear`].
+    ///
+    /// # Errors
+    /// [`GpuError::Sky`].
+    pub fn of_opacity(gpu: &'a Gpu, pack: &Pack) -> Result<Stage<'a>, GpuError> {
+        let target = Target::Linear;
+        let config = config(target.texture_format());
+        Ok(Stage {
+            gpu,
+            sky: Sky::of_opacity(&gpu.device, &gpu.queue, config, pack)?,
+            target,
+            texture: None,
+        })
+    }
+
+    /// The light that the view's sky gives to a scene: [`Sky::light`].
+    pub fn light(&self, view: &View) -> SkyLight {
+        self.sky.light(&view.params, view.seconds)
+    }
+
     /// Forgets the frames before, as [`Sky::reset_history`].
     pub fn reset_history(&mut self) {
         self.sky.reset_history();
@@ -78,17 +99,19 @@ impl<'a> Stage<'a> {
     /// # Errors
     /// [`GpuError::FrameSize`], [`GpuError::Device`].
     pub fn draw(&mut self, view: &View) -> Result<Frame, GpuError> {
-        let bytes = self.draw_bytes(view)?;
-        let [width, height] = view.camera.viewport_px;
-        Ok(Frame {
-            width,
-            height,
-            pixels: self.target.pixels(&bytes),
-        })
+        self.begin(view)?.wait(self.gpu)?.frame()
     }
 
     /// Draws a frame, as the bytes of its texture.
     pub(crate) fn draw_bytes(&mut self, view: &View) -> Result<Vec<u8>, GpuError> {
+        self.begin(view)?.wait(self.gpu)?.0.texels.bytes()
+    }
+
+    /// Begins to draw a frame: all is submitted, and nothing waited for. Another may be begun before it has come back.
+    ///
+    /// # Errors
+    /// [`GpuError::FrameSize`].
+    pub fn begin(&mut self, view: &View) -> Result<Begun, GpuError> {
         let (gpu, target) = (self.gpu, self.target);
         let size = view.camera.viewport_px;
         let kept = self.texture.take();
@@ -110,10 +133,9 @@ impl<'a> Stage<'a> {
             None,
             |pass| self.sky.draw(pass),
         );
-        gpu.queue.submit([encoder.finish()]);
-        let bytes = read_texels(gpu, &texture, target.bytes_per_pixel());
+        let texels = Texels::copied(gpu, encoder, &texture, target.bytes_per_pixel());
         self.texture = Some(texture);
-        bytes
+        Ok(Begun { target, texels })
     }
 
     /// The shadows of the frame that was drawn last, if it has any.
@@ -136,12 +158,16 @@ pub fn new_sky(
     pack: &Pack,
     target_format: wgpu::TextureFormat,
 ) -> Result<Sky, GpuError> {
-    let config = SkyConfig {
+    let config = config(target_format);
+    Ok(Sky::new(&gpu.device, &gpu.queue, config, pack)?)
+}
+
+fn config(target_format: wgpu::TextureFormat) -> SkyConfig {
+    SkyConfig {
         target_format,
         depth: None,
         sample_count: 1,
-    };
-    Ok(Sky::new(&gpu.device, &gpu.queue, config, pack)?)
+    }
 }
 
 /// Records one render pass that clears `view` and draws.
@@ -187,38 +213,54 @@ fn read_shares(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Frame, GpuError> {
     })
 }
 
-/// Copies a texture to the CPU, without the padding that rows have in a buffer.
+/// A texture on the CPU, without the padding that rows have in a buffer.
 fn read_texels(
     gpu: &Gpu,
     texture: &wgpu::Texture,
     bytes_per_texel: u32,
 ) -> Result<Vec<u8>, GpuError> {
-    let row = texture.width() * bytes_per_texel;
-    let padded_row = padded(row);
-    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("read back"),
-        size: u64::from(padded_row) * u64::from(texture.height()),
-        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    });
-    let layout = wgpu::TexelCopyBufferLayout {
-        offset: 0,
-        bytes_per_row: Some(padded_row),
-        rows_per_image: None,
-    };
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    encoder.copy_texture_to_buffer(
-        texture.as_image_copy(),
-        wgpu::TexelCopyBufferInfo {
-            buffer: &buffer,
-            layout,
-        },
-        texture.size(),
-    );
-    gpu.queue.submit([encoder.finish()]);
-    let bytes = gpu.read(&buffer)?;
-    let rows = bytes.chunks_exact(padded_row as usize);
-    Ok(rows.flat_map(|r| &r[..row as usize]).copied().collect())
+    let encoder = gpu.device.create_command_encoder(&Default::default());
+    let texels = Texels::copied(gpu, encoder, texture, bytes_per_texel);
+    texels.wait(gpu)?;
+    texels.bytes()
+}
+
+/// A frame that was begun: its pixels are on their way to the CPU.
+#[derive(Debug)]
+pub struct Begun {
+    target: Target,
+    texels: Texels,
+}
+
+impl Begun {
+    /// Waits until the pixels are there.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`].
+    pub fn wait(self, gpu: &Gpu) -> Result<Back, GpuError> {
+        self.texels.wait(gpu)?;
+        Ok(Back(self))
+    }
+}
+
+/// A frame whose pixels are there: any thread may take them.
+#[derive(Debug)]
+pub struct Back(Begun);
+
+impl Back {
+    /// The frame.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`].
+    pub fn frame(self) -> Result<Frame, GpuError> {
+        let [width, height] = self.0.texels.size();
+        let pixels = self.0.target.pixels(&self.0.texels.bytes()?);
+        Ok(Frame {
+            width,
+            height,
+            pixels,
+        })
+    }
 }
 
 #[cfg(test)]
