@@ -5,7 +5,9 @@ mod cube;
 mod export;
 mod given;
 mod gpu;
+mod jobs;
 mod look;
+mod on_map;
 mod render;
 mod settings;
 mod values;
@@ -18,9 +20,12 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 pub use bench::{BenchArgs, Protocol};
 pub use cube::CubeArgs;
-pub use export::Shot;
+pub use export::{Shot, equirect_width, side as verify_side, sides};
+pub use jobs::Label;
 pub use look::LookArgs;
+pub use on_map::stray_on_map;
 pub use render::RenderArgs;
+pub use values::MAX_SIDE;
 pub use window::WindowArgs;
 
 /// Looks at the sky of a Welkin pack.

@@ -7,6 +7,7 @@ mod bench;
 mod cli;
 mod cube;
 mod gpus;
+mod job;
 mod look;
 mod render;
 mod save_light;

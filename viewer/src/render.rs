@@ -1,6 +1,10 @@
 //! `welkin-view render`: a pack's sky as a picture, an environment map, or a sequence of either.
 
 mod artist;
+mod jobs;
+mod oktas;
+mod pipeline;
+mod progress;
 mod sequence;
 
 use std::path::Path;
@@ -9,7 +13,7 @@ use anyhow::{Error, Result, ensure};
 use welkin_pack::place::verify_apart;
 use welkin_pack::whole::sweep_beside;
 use welkin_pack::{Pack, Role};
-use welkin_runtime::{Method, Oktas, SkyError, SkyParams};
+use welkin_runtime::{Method, Oktas, SkyError};
 use welkin_viewer::constellations;
 use welkin_viewer::export::Environment;
 use welkin_viewer::export::light::Light;
@@ -21,11 +25,12 @@ use crate::cli::{RenderArgs, Shot};
 use crate::save_light::{self, json_path};
 use crate::told::tell_leftovers;
 use artist::Artist;
-
-/// What calibration keeps: docs/cover.md.
-const MOST_OFF_OKTAS: f32 = 0.5;
+use oktas::cover_for_oktas;
 
 pub fn run(args: &RenderArgs) -> Result<()> {
+    if let Some(jobs) = &args.jobs.jobs {
+        return jobs::run(args, jobs);
+    }
     // The name is checked before anything slow begins.
     let shot = args.shot().map_err(Error::msg)?;
     let prefiltered = args.export.prefiltered;
@@ -47,7 +52,7 @@ pub fn run(args: &RenderArgs) -> Result<()> {
         SkyError::MissingField
     );
     if let Some(oktas) = args.oktas {
-        view.params.cover = cover_for_oktas(&pack, &view.params, oktas)?;
+        view.params.cover = cover_for_oktas(&Oktas::new(&pack)?, &view.params, oktas)?;
     }
     let gpu = Gpu::open(args.gpu.gpu.as_ref())?;
     let sequence = args.export.sequence(view.seconds);
@@ -76,28 +81,14 @@ pub fn run(args: &RenderArgs) -> Result<()> {
             } else {
                 0.0
             };
-            let azimuth_rad = azimuth_deg.to_radians();
-            let artist = Artist::new(&gpu, &pack, shot, azimuth_rad)?;
+            let shot = (shot, azimuth_deg.to_radians());
             match sequence {
-                None => artist::draw(artist, &view, &args.output),
+                None => artist::draw(&gpu, pack, shot, &view, &args.output),
                 Some(sequence) => {
-                    sequence::draw(artist, &view, &sequence, (&args.output, shot.extension()))
+                    let mut artist = Artist::new(&gpu, pack);
+                    sequence::draw(&gpu, &mut artist, shot, &view, &sequence, &args.output)
                 }
             }
         }
     }
-}
-
-/// The cover that shows so many oktas; an error if no cover does.
-fn cover_for_oktas(pack: &Pack, params: &SkyParams, oktas: f32) -> Result<f32> {
-    let calibration = Oktas::new(pack)?;
-    let cover = calibration.cover(params, oktas);
-    let shown = calibration.shown(&SkyParams { cover, ..*params });
-    ensure!(
-        (shown - oktas).abs() <= MOST_OFF_OKTAS,
-        "--oktas {oktas}: with the other options, --method {} shows {} {shown:.1} oktas; ask for that, or change its options",
-        params.method.name(),
-        if shown < oktas { "at most" } else { "at least" },
-    );
-    Ok(cover)
 }

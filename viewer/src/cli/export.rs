@@ -19,13 +19,13 @@ const USUAL_FPS: f64 = 30.0;
 const LOOP_S: [f64; 2] = [1.0, 86_400.0];
 
 /// Name of the group of options that ask for a sequence.
-const SEQUENCE: &str = "sequence";
+pub const SEQUENCE: &str = "sequence";
 
 /// What is drawn other than one frame.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Environment maps and sequences")]
 pub struct ExportArgs {
-    #[arg(long, value_name = "W", conflicts_with = "cubemap", value_parser = width, allow_hyphen_values = true, help = equirect_help())]
+    #[arg(long, value_name = "W", conflicts_with = "cubemap", value_parser = equirect_width, allow_hyphen_values = true, help = equirect_help())]
     pub equirect: Option<u32>,
     #[arg(long, value_name = "N", value_parser = side, allow_hyphen_values = true, help = cubemap_help())]
     pub cubemap: Option<u32>,
@@ -138,7 +138,8 @@ fn fps_help() -> String {
     format!("Frames a second, {least} to {most} [default: {USUAL_FPS}]")
 }
 
-fn width(text: &str) -> Result<u32, String> {
+/// The width of a panorama.
+pub fn equirect_width(text: &str) -> Result<u32, String> {
     let [least, most] = equirect::WIDTHS;
     match text.parse::<u32>() {
         Ok(width) if (least..=most).contains(&width) && width.is_multiple_of(2) => Ok(width),

@@ -12,6 +12,7 @@ use welkin_viewer::save::target_for;
 
 use super::export::{ExportArgs, Shot};
 use super::gpu::GpuArgs;
+use super::jobs::JobsArgs;
 use super::settings::{SKY, SettingArgs};
 use super::values::size;
 
@@ -20,7 +21,7 @@ pub struct RenderArgs {
     /// Folder of the pack
     pub pack: PathBuf,
     /// Picture to write; its name ends in .png, .exr or .hdr. A file of that name is replaced. With --cubemap a .ktx2 or a folder,
-    /// with --frames or --loop a folder
+    /// with --frames, --loop or --jobs a folder
     #[arg(short, long, value_name = "FRAME.png|.exr|.hdr")]
     pub output: PathBuf,
     /// Pixels, width by height
@@ -43,6 +44,8 @@ pub struct RenderArgs {
     pub constellations: bool,
     #[command(flatten)]
     pub export: ExportArgs,
+    #[command(flatten)]
+    pub jobs: JobsArgs,
     #[command(flatten)]
     pub gpu: GpuArgs,
 }
@@ -80,6 +83,9 @@ impl RenderArgs {
     /// # Errors
     /// Which option it is, and whose; or that its value is not for this method.
     pub fn refuse_others(&self, given: &ArgMatches) -> Result<(), String> {
+        if self.jobs.jobs.is_some() {
+            return self.jobs.refuse_others(given);
+        }
         self.settings.refuse_others()?;
         let params = self.settings.settings.params;
         self.export

@@ -1,7 +1,7 @@
 //! What several commands take: the size of a picture.
 
 /// Sides above this are no texture on any GPU; what the GPU at hand takes is checked when it is known.
-const MAX_SIDE: u32 = 32_768;
+pub const MAX_SIDE: u32 = 32_768;
 
 pub fn size(text: &str) -> Result<[u32; 2], String> {
     let sides = text

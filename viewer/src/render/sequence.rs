@@ -4,47 +4,66 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use indicatif::{ProgressBar, ProgressStyle};
 use welkin_pack::interrupt;
 use welkin_pack::whole::{sweep, write_file};
 use welkin_viewer::export::sequence::{Sequence, open_folder, path};
+use welkin_viewer::gpu::Gpu;
 use welkin_viewer::headless::View;
 
 use super::artist::{Artist, Encoded};
+use super::pipeline::{Next, overlap};
+use super::progress::progress;
+use crate::cli::Shot;
 use crate::told::tell_leftovers;
 
 /// Draws the frames of a part, and replaces those that are there. Every frame appears whole or not at all, so what was drawn before an
 /// interruption can stay.
 pub fn draw(
-    mut artist: Artist<'_>,
+    gpu: &Gpu,
+    artist: &mut Artist<'_>,
+    (shot, azimuth_rad): (Shot, f32),
     view: &View,
     sequence: &Sequence,
-    (folder, extension): (&Path, &str),
+    folder: &Path,
 ) -> Result<()> {
     open_folder(folder)?;
     tell_leftovers(&sweep(folder));
     interrupt::listen()?;
-    let numbers = sequence.numbers();
-    let bar = progress(numbers.len() as u64);
+    let mut numbers = sequence.numbers();
     let count = numbers.len();
-    for (done, number) in numbers.enumerate() {
-        if interrupt::requested() {
-            bar.abandon();
-            bail!(
-                "interrupted: {done} of {count} frames are drawn; run it again to draw them anew"
-            );
-        }
-        let file = path(folder, number, extension);
-        let moment = View {
-            seconds: sequence.seconds(number),
-            ..view.clone()
-        };
-        let change = sequence.change(number);
-        let drawn = artist.draw(&moment, change.as_ref(), &file.display().to_string())?;
-        if let Encoded::File(bytes) = drawn {
-            write_file(&file, &bytes, &|| false)?;
-        }
-        bar.inc(1);
+    let bar = progress(Some(count as u64), "frames");
+    let mut done = 0;
+    overlap(
+        |_| {
+            let next = numbers.next().filter(|_| !interrupt::requested());
+            let Some(number) = next else {
+                return Ok(Next::End);
+            };
+            let moment = View {
+                seconds: sequence.seconds(number),
+                ..view.clone()
+            };
+            let change = sequence.change(number);
+            let drawing = artist.begin(shot, azimuth_rad, &moment, change.as_ref())?;
+            Ok(Next::Begun((number, drawing)))
+        },
+        |(number, drawing)| Ok((number, drawing.wait(gpu)?)),
+        |(number, picture)| {
+            let file = path(folder, number, shot.extension());
+            if let Encoded::File(bytes) = picture.encode(&file.display().to_string())? {
+                write_file(&file, &bytes, &|| false)?;
+            }
+            Ok(())
+        },
+        |()| {
+            done += 1;
+            bar.inc(1);
+            Ok(())
+        },
+    )?;
+    if done < count {
+        bar.abandon();
+        bail!("interrupted: {done} of {count} frames are drawn; run it again to draw them anew");
     }
     bar.finish_and_clear();
     writeln!(
@@ -54,13 +73,4 @@ pub fn draw(
     )
     .ok();
     Ok(())
-}
-
-/// A bar on standard error if that is a terminal, and nothing elsewhere.
-fn progress(frames: u64) -> ProgressBar {
-    let bar = ProgressBar::new(frames);
-    if let Ok(style) = ProgressStyle::with_template("{bar:24} {pos}/{len} frames, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
 }

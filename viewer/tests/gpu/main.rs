@@ -5,6 +5,8 @@ mod bench;
 mod common;
 mod environment;
 mod export;
+mod jobs;
+mod labels;
 mod light;
 mod look;
 mod loops;

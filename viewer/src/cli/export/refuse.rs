@@ -5,6 +5,7 @@ use welkin_viewer::export::sequence::MOST_FRAMES;
 
 use super::ExportArgs;
 use crate::cli::given::is_given;
+use crate::cli::on_map::stray_on_map;
 
 impl ExportArgs {
     /// An option that a map or a sequence would not look at, or that cannot hold there, is a mistake, and told.
@@ -61,46 +62,14 @@ impl ExportArgs {
     }
 
     fn refuse_on_maps(&self, given: &ArgMatches, rain: f32, flare: f32) -> Result<(), String> {
-        let (map, sized) = match self.equirect {
-            Some(_) => ("--equirect", "its own number is its width"),
-            None => ("--cubemap", "its own number is the side of a face"),
+        let map = match self.equirect {
+            Some(_) => "--equirect",
+            None => "--cubemap",
         };
-        let cases = [
-            ("size", true, sized),
-            ("elevation", true, "it looks everywhere"),
-            ("fov", true, "it looks everywhere"),
-            (
-                "azimuth",
-                self.cubemap.is_some(),
-                "its faces look along the axes of the world",
-            ),
-            (
-                "flare",
-                flare > 0.0,
-                "a lens flare belongs to one camera, and is left out",
-            ),
-            (
-                "starburst",
-                true,
-                "a lens flare belongs to one camera, and is left out",
-            ),
-            (
-                "rain",
-                rain > 0.0,
-                "streaks of rain belong to one screen and do not meet across faces",
-            ),
-            (
-                "shadow",
-                true,
-                "shadows on the ground are drawn with a frame of their own",
-            ),
-        ];
-        let stray = cases
-            .iter()
-            .find(|(option, matters, _)| *matters && is_given(given, option));
-        match stray {
+        let is_given = |option: &str| is_given(given, option);
+        match stray_on_map(self.cubemap.is_some(), is_given, rain, flare) {
             None => Ok(()),
-            Some((option, _, why)) => Err(format!(
+            Some((option, why)) => Err(format!(
                 "--{option} does not go with {map}: {why}; leave it out"
             )),
         }
