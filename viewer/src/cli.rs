@@ -9,6 +9,7 @@ mod jobs;
 mod look;
 mod on_map;
 mod render;
+mod sample;
 mod settings;
 mod values;
 mod window;
@@ -25,6 +26,7 @@ pub use jobs::Label;
 pub use look::LookArgs;
 pub use on_map::stray_on_map;
 pub use render::RenderArgs;
+pub use sample::SampleArgs;
 pub use values::MAX_SIDE;
 pub use window::WindowArgs;
 
@@ -43,6 +45,8 @@ pub struct Cli {
 pub enum Command {
     /// Draw without a window: a frame, an environment map, or a sequence of either, as PNG (8-bit sRGB), or EXR, HDR or KTX2 (linear radiance)
     Render(Box<RenderArgs>),
+    /// Draw jobs for `render --jobs` from ranges of settings, weathers, dates and places: the same lines on every machine
+    Sample(SampleArgs),
     /// Make image-based light of any panorama: a cube map with levels for rough surfaces, as KTX2, and the irradiance as nine spherical
     /// harmonics beside it, as JSON
     Cube(CubeArgs),
@@ -71,7 +75,8 @@ impl Cli {
         let agreed = match &cli.command {
             Some(Command::Render(args)) => args.refuse_others(given),
             Some(Command::Bench(args)) => args.refuse_others(),
-            Some(Command::Cube(_) | Command::Gpus | Command::Look(_)) | None => Ok(()),
+            Some(Command::Cube(_) | Command::Gpus | Command::Look(_) | Command::Sample(_))
+            | None => Ok(()),
         };
         agreed.map_err(|message| {
             let subcommand = command.find_subcommand_mut(name);

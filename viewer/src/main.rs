@@ -10,6 +10,7 @@ mod gpus;
 mod job;
 mod look;
 mod render;
+mod sample;
 mod save_light;
 mod told;
 #[cfg(feature = "window")]
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
     let cli = Cli::read(std::env::args_os()).unwrap_or_else(|e| e.exit());
     let done = match cli.command {
         Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Sample(args)) => sample::run(&args),
         Some(Command::Cube(args)) => cube::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
         Some(Command::Gpus) => gpus::run(),

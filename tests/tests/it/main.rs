@@ -1,6 +1,7 @@
 //! Whole-path tests that want no GPU and little time: golden packs, the closed forms of the sky, the order of the runtime's files.
 
 mod catalogue;
+mod datasets;
 mod eclipse;
 mod floors;
 mod golden;

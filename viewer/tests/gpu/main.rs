@@ -12,3 +12,4 @@ mod look;
 mod loops;
 mod methods;
 mod program;
+mod sample;
