@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::PathBufValueParser;
 use clap::{ArgMatches, Args, ValueEnum};
+use welkin_runtime::params::whole_within;
 
 use super::given::is_given;
 
@@ -23,9 +24,19 @@ pub struct JobsArgs {
         value_delimiter = ','
     )]
     pub labels: Vec<Label>,
+    /// Put pictures and labels into tar files of N jobs each, as WebDataset reads them: skies-000000.tar and so on
+    #[arg(long, value_name = "N", requires = "jobs", value_parser = tar, allow_hyphen_values = true)]
+    pub tar: Option<u32>,
     /// Replace files of --jobs that other lines or other programs have made
     #[arg(long, requires = "jobs")]
     pub force: bool,
+}
+
+/// Jobs that a tar file may have.
+const MOST_IN_TAR: u32 = 100_000;
+
+fn tar(text: &str) -> Result<u32, String> {
+    whole_within(text, 1..=MOST_IN_TAR)
 }
 
 /// What is told of a picture beside it.
@@ -52,7 +63,9 @@ impl Label {
 }
 
 /// The options that go with jobs, which say all else themselves.
-const BESIDE: [&str; 7] = ["pack", "output", "jobs", "labels", "force", "shard", "gpu"];
+const BESIDE: [&str; 8] = [
+    "tar", "pack", "output", "jobs", "labels", "force", "shard", "gpu",
+];
 
 impl JobsArgs {
     /// The labels in one order, each once.

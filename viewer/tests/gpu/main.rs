@@ -1,5 +1,6 @@
 //! The program `welkin-view`, run as its users run it, on whatever adapter there is (software Vulkan will do).
 
+mod archive;
 mod bench;
 #[path = "../common/mod.rs"]
 mod common;

@@ -15,7 +15,7 @@ use welkin_pack::whole::write_file;
 use welkin_pack::{WriteError, shown};
 use welkin_viewer::export::sequence::Shard;
 
-use super::line::{self, BEGINNING, Made, hash};
+use super::line::{self, BEGINNING, Line, Made, hash};
 
 /// Why an index cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -46,6 +46,8 @@ pub struct Known {
     pub labels: Vec<String>,
     /// Names of its files.
     pub files: Vec<String>,
+    /// The tar file that they are in.
+    pub tar: Option<String>,
     /// Whether all of them are there as they were written.
     pub is_whole: bool,
     bytes: Range<usize>,
@@ -101,23 +103,27 @@ impl Index {
             file.set_len(length as u64).map_err(failed)?;
         }
         let written = lines.iter().map(|(line, _)| line.name.clone()).collect();
-        let known = lines.into_par_iter().map(|(line, bytes)| {
-            let is_whole = line.files.values().all(|made| is_whole(folder, made));
+        // A tar file has many pictures.
+        let made: HashSet<&Made> = lines.iter().flat_map(|(line, _)| files(line)).collect();
+        let whole = made.into_par_iter().filter(|made| is_whole(folder, made));
+        let whole: HashSet<Made> = whole.cloned().collect();
+        let known = lines.into_iter().map(|(line, bytes)| {
+            let is_whole = files(&line).all(|made| whole.contains(made));
             let known = Known {
+                is_whole,
                 job: line.job,
                 labels: line.labels,
                 files: line.files.into_values().map(|made| made.file).collect(),
-                is_whole,
+                tar: line.tar.map(|made| made.file),
                 bytes,
             };
             (line.name, known)
         });
-        // The last line of a name holds: the order stays as it is.
-        let known: Vec<_> = known.collect();
         Ok(Index {
             file,
             length,
-            known: known.into_iter().collect(),
+            // The last line of a name holds.
+            known: known.collect(),
             written,
             run: Vec::new(),
             path,
@@ -130,7 +136,12 @@ impl Index {
     }
 
     /// Adds the line of a picture whose files are there.
-    pub fn add(&mut self, name: String, line: &str) -> Result<(), IndexError> {
+    pub fn add(&mut self, line: &Line) -> Result<(), IndexError> {
+        let text = serde_json::to_string(line).map_err(|e| failed(&self.path, e.into()))?;
+        self.append(line.name.clone(), &text)
+    }
+
+    fn append(&mut self, name: String, line: &str) -> Result<(), IndexError> {
         let line = format!("{line}\n");
         let written = self.file.write_all(line.as_bytes());
         written.map_err(|reason| failed(&self.path, reason))?;
@@ -140,6 +151,7 @@ impl Index {
             job: String::new(),
             labels: Vec::new(),
             files: Vec::new(),
+            tar: None,
             is_whole: true,
             bytes,
         };
@@ -154,10 +166,13 @@ impl Index {
         self.run.push(name);
     }
 
-    /// Brings it to the disk, its lines in the order of the jobs.
-    pub fn close(self) -> Result<(), IndexError> {
+    /// Brings it to the disk; after a whole run with its lines in the order of the jobs.
+    pub fn close(self, is_whole_run: bool) -> Result<(), IndexError> {
         let failed = |reason| failed(&self.path, reason);
         self.file.sync_all().map_err(failed)?;
+        if !is_whole_run {
+            return Ok(());
+        }
         let own: HashSet<&String> = self.run.iter().collect();
         let mut told = HashSet::new();
         let others = self.written.iter().filter(|name| !own.contains(name));
@@ -202,6 +217,12 @@ fn read(path: &Path, bytes: &[u8]) -> Result<Vec<(line::Known, Range<usize>)>, I
         .collect()
 }
 
+/// The files that a line stands for: its own, or the tar file that has them.
+fn files(line: &line::Known) -> impl Iterator<Item = &Made> {
+    let own = line.files.values().filter(|_| line.tar.is_none());
+    own.chain(&line.tar)
+}
+
 /// Whether a file is there with the bytes that were written.
 fn is_whole(folder: &Path, made: &Made) -> bool {
     // A line that names another folder's file is none of ours.
@@ -236,24 +257,25 @@ mod tests {
         let [a, b, c, d] = ["a", "b", "c", "d"].map(|name| line(name, name, b""));
         let mut index = Index::open(folder, Shard::WHOLE).unwrap();
         for (name, line) in [("d", &d), ("a", &a), ("c", &c)] {
-            index.add(name.to_string(), line).unwrap();
+            index.append(name.to_string(), line).unwrap();
         }
-        index.close().unwrap();
+        index.close(true).unwrap();
         assert_eq!(text(folder), format!("{d}\n{a}\n{c}\n"));
         // b is drawn in the middle, c anew.
         let mut index = Index::open(folder, Shard::WHOLE).unwrap();
         index.keep("a".to_string());
-        index.add("b".to_string(), &b).unwrap();
+        index.append("b".to_string(), &b).unwrap();
         let anew = c.replace("\"j\"", "\"k\"");
-        index.add("c".to_string(), &anew).unwrap();
-        drop(index);
+        index.append("c".to_string(), &anew).unwrap();
+        // Of a run that ended before its jobs did, lines stay where they are.
+        index.close(false).unwrap();
         assert_eq!(text(folder), format!("{d}\n{a}\n{c}\n{b}\n{anew}\n"));
         let mut index = Index::open(folder, Shard::WHOLE).unwrap();
         assert_eq!(index.known("c").unwrap().job, "k");
         for name in ["a", "b", "c"] {
             index.keep(name.to_string());
         }
-        index.close().unwrap();
+        index.close(true).unwrap();
         assert_eq!(text(folder), format!("{d}\n{a}\n{b}\n{anew}\n"));
         assert_eq!(folder.read_dir().unwrap().count(), 1);
     }

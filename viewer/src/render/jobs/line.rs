@@ -17,6 +17,9 @@ pub struct Line {
     pub name: String,
     /// Its files by what they are.
     pub files: BTreeMap<String, Made>,
+    /// The tar file that they are in, if it is not the folder itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tar: Option<Made>,
     /// Hash of all that the picture follows from, but for the device.
     pub job: String,
     /// Which labels there are.
@@ -41,7 +44,7 @@ pub struct Line {
 }
 
 /// A file of a picture.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Made {
     /// Its name in the folder.
     pub file: String,
@@ -62,6 +65,7 @@ pub struct PackTold {
 #[derive(Deserialize)]
 pub struct Known {
     pub name: String,
+    pub tar: Option<Made>,
     pub job: String,
     pub labels: Vec<String>,
     pub files: BTreeMap<String, Made>,

@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, sync_channel};
 use std::thread;
+use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 use welkin_viewer::export::sequence::Shard;
@@ -15,6 +16,9 @@ use crate::job::Job;
 
 /// Lines of a pipe that wait to be drawn.
 const WAITING: usize = 64;
+
+/// As long a pipe is waited for before one looks whether to go on.
+const PATIENCE: Duration = Duration::from_millis(100);
 
 /// A line and its number.
 type Line = (u64, String);
@@ -74,7 +78,7 @@ impl Source {
         }
     }
 
-    /// The next line, none at the end; nothing at all if it is yet to come and is not waited for.
+    /// The next line, none at the end; nothing at all if it is yet to come.
     pub fn next(&mut self, may_wait: bool) -> Result<Option<Option<Line>>> {
         match self {
             Source::File(jobs, lines) => {
@@ -84,7 +88,11 @@ impl Source {
             }
             Source::Pipe(lines) => {
                 let line = match may_wait {
-                    true => lines.recv().ok(),
+                    true => match lines.recv_timeout(PATIENCE) {
+                        Ok(line) => Some(line),
+                        Err(RecvTimeoutError::Timeout) => return Ok(None),
+                        Err(RecvTimeoutError::Disconnected) => None,
+                    },
                     false => match lines.try_recv() {
                         Ok(line) => Some(line),
                         Err(TryRecvError::Empty) => return Ok(None),
