@@ -374,4 +374,22 @@ fn a_pipe_is_drawn_as_it_comes_and_what_was_made_stays_where_a_line_is_wrong() {
     let output = child.wait_with_output().unwrap();
     let told = String::from_utf8_lossy(&output.stderr);
     assert!(told.contains("1 drawn, 3 were there"), "{told}");
+    // A named pipe, which can be read but once.
+    #[cfg(unix)]
+    {
+        let fifo = parent.path().join("fifo");
+        assert!(
+            Command::new("mkfifo")
+                .arg(&fifo)
+                .status()
+                .unwrap()
+                .success()
+        );
+        let mut command = render_to(&out, &["--jobs"]);
+        let child = command.arg(&fifo).stderr(Stdio::piped()).spawn().unwrap();
+        fs::write(&fifo, format!("{}{{\"seed\": \"x\"}}", moments(5))).unwrap();
+        let output = child.wait_with_output().unwrap();
+        failed(&output, 1, &["fifo, line 6", "seed is \"x\""]);
+        assert_eq!(index(&out).len(), 5);
+    }
 }

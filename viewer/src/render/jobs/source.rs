@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::{self, BufReader};
+use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, sync_channel};
 use std::thread;
@@ -26,7 +26,31 @@ type Line = (u64, String);
 /// Lines of jobs.
 pub enum Source {
     File(PathBuf, Lines<BufReader<File>>),
-    Pipe(Receiver<Result<Line, (u64, LineFault)>>),
+    Pipe(PathBuf, Received),
+}
+
+/// Lines of a pipe as they come.
+type Received = Receiver<Result<Line, (u64, LineFault)>>;
+
+/// Reads on while pictures are drawn.
+fn pipe(reader: impl BufRead + Send + 'static) -> Received {
+    let (sender, receiver) = sync_channel(WAITING);
+    // It ends with what it reads, or with the program.
+    thread::spawn(move || {
+        let mut lines = Lines::new(reader);
+        loop {
+            let line = match lines.next() {
+                Ok(None) => return,
+                Ok(Some(text)) => Ok((lines.number(), text)),
+                Err(fault) => Err((lines.number(), fault)),
+            };
+            let is_fault = line.is_err();
+            if sender.send(line).is_err() || is_fault {
+                return;
+            }
+        }
+    });
+    receiver
 }
 
 /// Where a fault is.
@@ -42,28 +66,18 @@ fn is_pipe(jobs: &Path) -> bool {
 }
 
 impl Source {
-    /// Opens the jobs; `-` is standard input.
+    /// Opens the jobs; `-` is standard input. What is no file, and can be read but once, is a pipe too.
     pub fn open(jobs: &Path) -> Result<Source> {
+        let place = jobs.to_path_buf();
         if is_pipe(jobs) {
-            let (sender, receiver) = sync_channel(WAITING);
-            // It ends with what it reads, or with the program.
-            thread::spawn(move || {
-                let mut lines = Lines::new(io::stdin().lock());
-                loop {
-                    let line = match lines.next() {
-                        Ok(None) => return,
-                        Ok(Some(text)) => Ok((lines.number(), text)),
-                        Err(fault) => Err((lines.number(), fault)),
-                    };
-                    let is_fault = line.is_err();
-                    if sender.send(line).is_err() || is_fault {
-                        return;
-                    }
-                }
-            });
-            return Ok(Source::Pipe(receiver));
+            return Ok(Source::Pipe(place, pipe(BufReader::new(io::stdin()))));
         }
-        Ok(Source::File(jobs.to_path_buf(), open(jobs)?))
+        let file = open(jobs)?;
+        let is_file = file.metadata().is_ok_and(|metadata| metadata.is_file());
+        Ok(match is_file {
+            true => Source::File(place, Lines::new(BufReader::new(file))),
+            false => Source::Pipe(place, pipe(BufReader::new(file))),
+        })
     }
 
     pub fn is_file(&self) -> bool {
@@ -74,7 +88,7 @@ impl Source {
     pub fn base(&self) -> PathBuf {
         match self {
             Source::File(jobs, _) => jobs.parent().map(Path::to_path_buf).unwrap_or_default(),
-            Source::Pipe(_) => PathBuf::new(),
+            Source::Pipe(..) => PathBuf::new(),
         }
     }
 
@@ -86,7 +100,7 @@ impl Source {
                 let line = line.with_context(|| at(jobs, lines.number()))?;
                 Ok(Some(line.map(|text| (lines.number(), text))))
             }
-            Source::Pipe(lines) => {
+            Source::Pipe(jobs, lines) => {
                 let line = match may_wait {
                     true => match lines.recv_timeout(PATIENCE) {
                         Ok(line) => Some(line),
@@ -100,9 +114,7 @@ impl Source {
                     },
                 };
                 match line {
-                    Some(Err((number, fault))) => {
-                        Err(fault).with_context(|| at(Path::new("-"), number))
-                    }
+                    Some(Err((number, fault))) => Err(fault).with_context(|| at(jobs, number)),
                     Some(Ok(line)) => Ok(Some(Some(line))),
                     None => Ok(Some(None)),
                 }
@@ -113,7 +125,7 @@ impl Source {
 
 /// Every line of a file.
 pub fn read_all(jobs: &Path, mut each: impl FnMut(u64, &str) -> Result<()>) -> Result<()> {
-    let mut lines = open(jobs)?;
+    let mut lines = Lines::new(BufReader::new(open(jobs)?));
     loop {
         let line = lines.next();
         let Some(text) = line.with_context(|| at(jobs, lines.number()))? else {
@@ -123,15 +135,14 @@ pub fn read_all(jobs: &Path, mut each: impl FnMut(u64, &str) -> Result<()>) -> R
     }
 }
 
-fn open(jobs: &Path) -> Result<Lines<BufReader<File>>> {
+fn open(jobs: &Path) -> Result<File> {
     let told = || {
         format!(
             "{}: cannot be read; name a file of jobs, or - for standard input",
             jobs.display()
         )
     };
-    let file = File::open(jobs).with_context(told)?;
-    Ok(Lines::new(BufReader::new(file)))
+    File::open(jobs).with_context(told)
 }
 
 /// Jobs of a part, each of another name.
