@@ -156,6 +156,19 @@ impl Manifest {
         replace_seal(&text, &unsealed.seal, &seal).unwrap_or(text)
     }
 
+    /// The files that a manifest's JSON text names, beside itself: for who has to fetch them before [`Pack::from_memory`](crate::Pack::from_memory). They
+    /// are plain names, without folders. `file` names the manifest in errors.
+    ///
+    /// # Errors
+    /// As for the manifest in [`Pack::open`](crate::Pack::open): version, seal, and what its roles ask.
+    pub fn file_names(file: &str, bytes: &[u8]) -> Result<Vec<String>, PackError> {
+        let manifest = Manifest::from_json(file, bytes)?;
+        manifest.verify(file)?;
+        let textures = manifest.textures.into_iter().map(|texture| texture.file);
+        let field = manifest.field.into_iter().map(|field| field.file);
+        Ok(textures.chain(field).collect())
+    }
+
     /// Parses the JSON text and verifies its seal. `file` names it in errors.
     pub(crate) fn from_json(file: &str, bytes: &[u8]) -> Result<Manifest, PackError> {
         let manifest = Manifest::parse(file, bytes)?;

@@ -41,6 +41,14 @@ pub enum SkyError {
         /// The format asked for.
         format: wgpu::TextureFormat,
     },
+    /// Over a sky that the application drew, only radiance can be laid, with blending.
+    #[error(
+        "the target format {format:?} cannot have clouds and stars laid over it on this device; use Rgba16Float or Rg11b10Ufloat"
+    )]
+    OverFormat {
+        /// The format asked for.
+        format: wgpu::TextureFormat,
+    },
     /// The depth format has no depth.
     #[error("the depth format {format:?} has no depth; use one whose name starts with Depth")]
     DepthFormat {

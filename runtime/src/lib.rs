@@ -74,7 +74,7 @@ pub use internals::geometry::axes::Axes;
 pub use internals::geometry::camera::Camera;
 pub use internals::oktas::Oktas;
 pub use internals::params::{self, Method, SkyParams};
-pub use internals::sky::{Luminary, Sky, SkyLight, View};
+pub use internals::sky::{Luminary, PackLight, Sky, SkyLight, View};
 pub use internals::sky::{air, light};
 
 #[cfg(feature = "sprites")]

@@ -172,6 +172,7 @@ mod tests {
                             skybox,
                             // Each alone and both together are parsed as well as neither.
                             catalogue: skybox != (sky == SkyModel::Table),
+                            over: skybox,
                         };
                         for shading in Shading::ALL {
                             let dome = Dome {

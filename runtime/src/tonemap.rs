@@ -9,7 +9,7 @@
 //! target shows no bands. AgX has it before its last power, which is nearly the target's own: a step is a step there.
 //!
 //! # Practice
-//! A float target gets raw radiance, and none of this. The curve is a branch over a uniform: all pixels of a frame take the same side, so a
+//! A float target gets radiance, by default as it is ([`crate::View::set_scale`]), and none of this. The curve is a branch over a uniform: all pixels of a frame take the same side, so a
 //! GPU pays for the one that is used. Compiled in, a change of the curve would make every pipeline anew that draws colour.
 
 pub mod agx;
@@ -22,9 +22,13 @@ use crate::geometry::part::{Part, Value};
 use crate::geometry::uniforms::uniforms;
 use crate::params::{SkyParams, Tonemap};
 
+/// The largest half float.
+const LARGEST_HALF: f32 = 65504.0;
+
 /// Its part of the shader.
 pub const PART: Part = Part {
     constants: &[
+        ("LARGEST_HALF", Value::F32(LARGEST_HALF)),
         ("TONEMAP_NEUTRAL", Value::U32(Tonemap::Neutral as u32)),
         ("TONEMAP_AGX", Value::U32(Tonemap::Agx as u32)),
         ("TONEMAP_AGX_PUNCHY", Value::U32(Tonemap::AgxPunchy as u32)),
@@ -72,7 +76,7 @@ pub const PART: Part = Part {
 uniforms! {
     /// The last step.
     TonemapUniforms {
-        /// Factor on the radiance.
+        /// Factor on the radiance; of a float target that of [`crate::View::set_scale`].
         exposure: f32,
         /// Size of the dither, 0 for none.
         dither: f32,

@@ -35,10 +35,15 @@ fn dither_noise(pixel: vec2f) -> f32 {
     return fract(52.9829189 * fract(dot(pixel - 0.5, vec2f(0.06711056, 0.00583715)))) - 0.5;
 }
 
+// What a float target gets: exposed where the application's own light is. The sun's disc may then be more than half floats hold.
+fn target_radiance(radiance: vec3f) -> vec3f {
+    return min(radiance * uniforms.tonemap.exposure, vec3f(LARGEST_HALF));
+}
+
 // As the target has it, without dither: what a frame or a vertex has of one colour can be told once.
 fn display_colour(radiance: vec3f) -> vec3f {
     if OUTPUT == OUTPUT_RADIANCE {
-        return radiance;
+        return target_radiance(radiance);
     }
     return encoded_colour(radiance, 0.0);
 }
@@ -53,7 +58,7 @@ fn encoded_colour(radiance: vec3f, step: f32) -> vec3f {
 
 fn finish(radiance: vec3f, pixel: vec2f) -> vec4f {
     if OUTPUT == OUTPUT_RADIANCE {
-        return vec4f(radiance, 1.0);
+        return vec4f(target_radiance(radiance), 1.0);
     }
     return vec4f(encoded_colour(radiance, uniforms.tonemap.dither * dither_noise(pixel)), 1.0);
 }

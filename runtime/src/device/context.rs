@@ -89,7 +89,8 @@ impl Context {
         own: Option<&wgpu::BindGroupLayout>,
     ) -> [wgpu::RenderPipeline; 4] {
         let pipeline = |variant: Variant| {
-            screen(&self.config, own, self.mesh, variant, |drawing| {
+            let (mesh, over) = (self.mesh, self.build.over);
+            screen(&self.config, own, mesh, over, variant, |drawing| {
                 self.pipeline(shader, drawing)
             })
         };

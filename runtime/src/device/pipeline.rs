@@ -122,11 +122,13 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// The pipeline of the sky itself, for the triangle over the screen or for the dome's mesh; `own` is the layout of its group 1.
+/// The pipeline of the sky itself, for the triangle over the screen or for the dome's mesh; `own` is the layout of its group 1. `over` another sky
+/// its colour is premultiplied.
 pub(crate) fn screen(
     config: &SkyConfig,
     own: Option<&wgpu::BindGroupLayout>,
     dome_mesh: bool,
+    over: bool,
     variant: Variant,
     make: impl FnOnce(&Drawing<'_>) -> wgpu::RenderPipeline,
 ) -> wgpu::RenderPipeline {
@@ -141,7 +143,11 @@ pub(crate) fn screen(
         ..Default::default()
     };
     let constants = variant.constants(dome_mesh);
-    let targets = [Some(config.target_format.into())];
+    let targets = [Some(wgpu::ColorTargetState {
+        format: config.target_format,
+        blend: over.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+        write_mask: wgpu::ColorWrites::ALL,
+    })];
     let flat = Drawing {
         constants: &constants,
         depth: config.depth.map(depth_state),

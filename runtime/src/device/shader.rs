@@ -18,6 +18,8 @@ pub struct Build {
     pub skybox: bool,
     /// Whether it has a catalogue of stars.
     pub catalogue: bool,
+    /// Whether the application has drawn a clear sky of its own, over which clouds, stars and moon are laid.
+    pub over: bool,
 }
 
 /// A shader of these structs and parts. Each call is a function that parts ask for, and what gives it.
@@ -44,7 +46,7 @@ pub fn compose<'a>(
     text
 }
 
-fn constants(build: Build) -> [(&'static str, Value); 11] {
+fn constants(build: Build) -> [(&'static str, Value); 12] {
     let far_depth = if build.reversed_depth { 0.0 } else { 1.0 };
     [
         ("OUTPUT_RADIANCE", Value::U32(Output::Radiance as u32)),
@@ -54,6 +56,7 @@ fn constants(build: Build) -> [(&'static str, Value); 11] {
         ("OUTPUT", Value::U32(build.output as u32)),
         ("SKYBOX", Value::Bool(build.skybox)),
         ("CATALOGUE", Value::Bool(build.catalogue)),
+        ("OVER", Value::Bool(build.over)),
         ("FAR_DEPTH", Value::F32(far_depth)),
         ("PI", Value::F32(PI)),
         ("TAU", Value::F32(TAU)),

@@ -3,7 +3,7 @@
 use welkin_pack::{Pack, Role};
 use wgpu::util::DeviceExt;
 
-use crate::device::config::{Output, SkyConfig, step};
+use crate::device::config::{Output, SkyConfig, opacity, output, step};
 use crate::device::context::Context;
 use crate::device::layouts::Layouts;
 use crate::device::shader::Build;
@@ -17,9 +17,16 @@ use crate::parts;
 #[cfg(feature = "sprites")]
 use crate::sprites::layer::Stock;
 
-/// Looks at the configuration and chooses what the shader writes: [`output`](crate::device::config::output) or
-/// [`opacity`](crate::device::config::opacity).
-pub(super) type ChooseOutput = fn(&SkyConfig, wgpu::Features) -> Result<Output, SkyError>;
+/// What of a sky is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Drawn {
+    /// All of it.
+    Sky,
+    /// The opacity of its clouds.
+    Opacity,
+    /// What lies over a clear sky that is there.
+    OverClear,
+}
 
 /// What all views of a sky share.
 #[derive(Debug)]
@@ -45,7 +52,7 @@ pub(super) struct DomeBuffers {
 }
 
 impl Common {
-    /// Uploads a pack; without a step of the dome's mesh the sky is a triangle over the screen.
+    /// Uploads a pack; without a step of the dome's mesh the sky is a triangle over the screen. Over another sky it has no clear sky of its own.
     ///
     /// # Errors
     /// See [`SkyError`]; the device is not touched before the configuration has been looked at.
@@ -55,16 +62,30 @@ impl Common {
         config: SkyConfig,
         pack: &Pack,
         dome_step_deg: Option<f32>,
-        output: ChooseOutput,
+        drawn: Drawn,
     ) -> Result<Common, SkyError> {
         let pack_data = PackData::new(pack)?;
         let features = device.features();
+        let over = drawn == Drawn::OverClear;
         let build = Build {
-            output: output(&config, features)?,
+            output: match drawn {
+                Drawn::Sky | Drawn::OverClear => output(&config, features)?,
+                Drawn::Opacity => opacity(&config, features)?,
+            },
             reversed_depth: config.depth.is_some_and(|d| d.reversed),
             skybox: pack_data.skybox.is_some(),
             catalogue: pack_data.catalogue.is_some(),
+            over,
         };
+        let usable = config.target_format.guaranteed_format_features(features);
+        let blends = usable
+            .flags
+            .contains(wgpu::TextureFormatFeatureFlags::BLENDABLE);
+        if over && (build.output != Output::Radiance || !blends) {
+            return Err(SkyError::OverFormat {
+                format: config.target_format,
+            });
+        }
         let bytes = |role: Role| {
             let levels = pack.texture(role).map(|texture| &texture.levels);
             levels.map_or(0, |levels| {
@@ -78,14 +99,11 @@ impl Common {
                 own[method as usize] = Some(upload(device, queue, pack, clouds.role())?);
             }
         }
-        let usable = config.target_format.guaranteed_format_features(features);
         let context = Context {
             own,
             clouds_texels: pack_data.clouds_texels,
             mesh: dome_step_deg.is_some(),
-            blends: usable
-                .flags
-                .contains(wgpu::TextureFormatFeatureFlags::BLENDABLE),
+            blends,
             device: device.clone(),
             config,
             build,

@@ -12,15 +12,17 @@ pub mod light;
 mod mean_clouds;
 mod method_pipelines;
 mod night;
+mod pack_light;
 mod view;
 
 use welkin_pack::Pack;
 
-use self::common::{ChooseOutput, Common};
+use self::common::{Common, Drawn};
 pub use self::light::{Luminary, SkyLight};
+pub use self::pack_light::PackLight;
 pub use self::view::View;
 use crate::clouds::shadow::Shadow;
-use crate::device::config::{SkyConfig, opacity, output};
+use crate::device::config::SkyConfig;
 use crate::error::SkyError;
 use crate::geometry::camera::Camera;
 use crate::params::{Method, SkyModel, SkyParams};
@@ -43,7 +45,7 @@ impl Sky {
         config: SkyConfig,
         pack: &Pack,
     ) -> Result<Sky, SkyError> {
-        Sky::build(device, queue, config, pack, None, output)
+        Sky::build(device, queue, config, pack, None, Drawn::Sky)
     }
 
     /// A sky that draws the opacity of its clouds, 0 to 1, in red, green and blue, and nothing else: what a picture of the same parameters
@@ -57,7 +59,22 @@ impl Sky {
         config: SkyConfig,
         pack: &Pack,
     ) -> Result<Sky, SkyError> {
-        Sky::build(device, queue, config, pack, None, opacity)
+        Sky::build(device, queue, config, pack, None, Drawn::Opacity)
+    }
+
+    /// As [`Sky::new`], but only clouds, stars, Milky Way, planets and moon, to be drawn over a clear sky that the application has drawn into the same target
+    /// with a sun and a ground of its own. Clouds hide it, stars and moon are added to it. Haze of rain, the rainbow, flashes of lightning and a pack's
+    /// skybox are left out.
+    ///
+    /// # Errors
+    /// As [`Sky::new`], and [`SkyError::OverFormat`] for a target that is no float one or cannot be blended with.
+    pub fn over(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        config: SkyConfig,
+        pack: &Pack,
+    ) -> Result<Sky, SkyError> {
+        Sky::build(device, queue, config, pack, None, Drawn::OverClear)
     }
 
     /// As [`Sky::new`], drawn on the papers' dome mesh with a vertex every `step_deg` degrees: the same
@@ -73,7 +90,7 @@ impl Sky {
         pack: &Pack,
         step_deg: f32,
     ) -> Result<Sky, SkyError> {
-        Sky::build(device, queue, config, pack, Some(step_deg), output)
+        Sky::build(device, queue, config, pack, Some(step_deg), Drawn::Sky)
     }
 
     fn build(
@@ -82,9 +99,9 @@ impl Sky {
         config: SkyConfig,
         pack: &Pack,
         dome_step_deg: Option<f32>,
-        output: ChooseOutput,
+        drawn: Drawn,
     ) -> Result<Sky, SkyError> {
-        let common = Common::new(device, queue, config, pack, dome_step_deg, output)?;
+        let common = Common::new(device, queue, config, pack, dome_step_deg, drawn)?;
         Ok(Sky {
             view: View::new(&common),
             common,
@@ -125,6 +142,11 @@ impl Sky {
     /// frame is drawn as a new sky would draw it. No other method keeps anything.
     pub fn reset_history(&mut self) {
         self.view.reset_history();
+    }
+
+    /// Sets the factor on the radiance that a float target gets: see [`View::set_scale`].
+    pub fn set_scale(&mut self, scale: f32) {
+        self.view.set_scale(scale);
     }
 
     /// Sprites that the prepared frame draws: on the screen, and into the ring of impostors.

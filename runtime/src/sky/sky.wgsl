@@ -1,7 +1,11 @@
 // What is behind the clouds: clear sky, what shows through it at night, the sun, a picture in place of them. Clouds leave `clear` of it; of
-// the sun's own light they leave its cube, since most of what they scatter goes on nearly straight and is theirs.
+// the sun's own light they leave its cube, since most of what they scatter goes on nearly straight and is theirs. Over a sky of the
+// application's own, that sky, its sun and its ground are there already.
 fn behind_clouds(direction: vec3f, pixel: vec2f, clear: f32) -> vec3f {
-    var radiance = sky_radiance(direction);
+    var radiance = vec3f(0.0);
+    if !OVER {
+        radiance = sky_radiance(direction);
+    }
     let moon = moon_seen(direction, clear * clear);
     if NIGHT && direction.y > 0.0 {
         var own = star_direction(direction);
@@ -29,9 +33,11 @@ fn behind_clouds(direction: vec3f, pixel: vec2f, clear: f32) -> vec3f {
         }
         radiance += night * (1.0 - moon.a);
     }
-    radiance = sun_added(radiance, direction, clear * clear * (1.0 - moon.a));
+    if !OVER {
+        radiance = sun_added(radiance, direction, clear * clear * (1.0 - moon.a));
+    }
     radiance += moon.rgb;
-    if SKYBOX {
+    if SKYBOX && !OVER {
         radiance = skybox_mix(radiance, direction);
     }
     return radiance;
@@ -57,6 +63,10 @@ fn fs_sky(in: Varyings) -> @location(0) vec4f {
     var radiance = clouds.rgb;
     if !ASK_OPAQUE || clouds.a < 1.0 {
         radiance = mix(behind_clouds(direction, select(in.pixel, in.position.xy, DOME_MESH), 1.0 - clouds.a), clouds.rgb, clouds.a);
+    }
+    if OVER {
+        // Blended as premultiplied colour: clouds hide what the application drew, what shines is added to it.
+        return vec4f(finish(radiance, in.position.xy).rgb, clouds.a);
     }
     radiance = weather(radiance, direction, clouds);
     return finish(radiance, in.position.xy);

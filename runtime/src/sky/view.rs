@@ -39,6 +39,7 @@ pub struct View {
     sprites: SpriteLayer,
     /// Made when shadows are first asked for.
     shadow: Option<shadow::Target>,
+    scale: f32,
     prepared: Option<Prepared>,
 }
 
@@ -80,6 +81,7 @@ impl View {
             #[cfg(feature = "sprites")]
             sprites: SpriteLayer::default(),
             shadow: None,
+            scale: 1.0,
             prepared: None,
             uniforms,
             sky,
@@ -118,7 +120,6 @@ impl View {
             .lit(queue, moment, |moment| data.lit_sky_at(moment));
         let clamped = data.exposed(lit, clamped, seconds);
         let params = clamped.dome();
-        #[cfg_attr(not(feature = "sprites"), expect(unused_mut))]
         let mut uniforms = data.uniforms_under(lit, &clamped, camera, seconds, common.step);
         let seconds = finite(seconds);
         if let Some(texels) =
@@ -143,6 +144,9 @@ impl View {
                 let sun = uniforms.sky.sun_direction;
                 uniforms.flares.strength *= self.sprites.clear_towards_sun(&frame, sun);
             }
+        }
+        if common.context.build.output == Output::Radiance {
+            uniforms.tonemap.exposure = self.scale;
         }
         queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&uniforms));
         let own = ensured(&mut self.pipelines, &common.context, &params);
@@ -238,6 +242,15 @@ impl View {
     pub fn reset_history(&mut self) {
         #[cfg(feature = "sprites")]
         self.sprites.reset_history();
+    }
+
+    /// Sets the factor on the radiance that a float target gets, from the next frame that is prepared on; 1 until then. It is for renderers that
+    /// expose what they light before they write it, and what it makes is at most the largest half float. What is no positive number counts as 1.
+    pub fn set_scale(&mut self, scale: f32) {
+        self.scale = match scale.is_finite() && scale > 0.0 {
+            true => scale,
+            false => 1.0,
+        };
     }
 
     /// See [`Sky::sprites_drawn`](super::Sky::sprites_drawn).

@@ -91,7 +91,7 @@ fn fs_ring(in: RingVaryings) -> @location(0) vec4f {
         }
     }
     if OUTPUT == OUTPUT_RADIANCE {
-        texel = vec4f(texel.rgb * RING_BRIGHTEST, texel.a);
+        texel = vec4f(texel.rgb * (RING_BRIGHTEST * uniforms.tonemap.exposure), texel.a);
     }
     if OUTPUT == OUTPUT_OPACITY {
         // Of the bytes alpha alone is not encoded.

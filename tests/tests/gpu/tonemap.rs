@@ -49,6 +49,7 @@ fn toned(colours: &[Vec3], params: &SkyParams) -> Vec<Vec3> {
         reversed_depth: false,
         skybox: false,
         catalogue: false,
+        over: false,
     };
     let parts = [light::PART, tonemap::PART, ALONE];
     let text = compose(

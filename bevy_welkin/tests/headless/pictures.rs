@@ -1,0 +1,284 @@
+//! Whole scenes: the example's, clouds in depth, and a sky over Bevy's atmosphere.
+
+use std::path::Path;
+
+use bevy::camera::Hdr;
+use bevy::core_pipeline::tonemapping::Tonemapping;
+use bevy::light::atmosphere::ScatteringMedium;
+use bevy::light::{Atmosphere, CascadeShadowConfigBuilder, SunDisk};
+use bevy::pbr::AtmosphereSettings;
+use bevy::prelude::*;
+use bevy::render::render_resource::TextureFormat;
+use bevy_welkin::welkin_runtime::Method;
+use bevy_welkin::{
+    WelkinAir, WelkinEnvironment, WelkinLight, WelkinShadows, WelkinSky, WelkinView,
+};
+
+use crate::scene;
+use crate::stage::{Picture, Stage};
+
+/// Of the golden picture: rows without gaps.
+const SIZE: UVec2 = UVec2::new(320, 180);
+
+/// The scene of examples/flying.rs at a moment, as its camera sees it.
+fn flown(sky: WelkinSky, size: UVec2, transform: Transform) -> Picture {
+    let mut stage = Stage::new("assets");
+    let pack = stage.pack();
+    stage.app.insert_resource(sky);
+    let image = stage.target(size, TextureFormat::Rgba8UnormSrgb);
+    let lens = PerspectiveProjection {
+        far: 40_000.0,
+        ..default()
+    };
+    let camera = (
+        stage.lens(&image, transform),
+        Projection::from(lens),
+        Hdr,
+        WelkinView(pack),
+        WelkinEnvironment,
+        WelkinAir,
+    );
+    let world = stage.app.world_mut();
+    world.spawn(camera).insert(Tonemapping::AcesFitted);
+    let cascades = CascadeShadowConfigBuilder {
+        maximum_distance: 600.0,
+        ..default()
+    };
+    let light = DirectionalLight {
+        shadow_maps_enabled: true,
+        ..default()
+    };
+    world.spawn((light, cascades.build(), WelkinLight, WelkinShadows));
+    world.run_system_cached(scene::spawn).expect("the scene");
+    stage.shoot(&image)
+}
+
+fn example() -> (WelkinSky, Transform) {
+    let mut sky = WelkinSky::default();
+    sky.params.cover = 0.45;
+    sky.params.time = 0.4;
+    sky.params.method = Method::Lit;
+    sky.params.shadow_extent_m = 12_000.0;
+    let transform =
+        Transform::from_xyz(0.0, 30.0, 130.0).looking_to(Vec3::new(0.3, 0.08, -1.0), Vec3::Y);
+    (sky, transform)
+}
+
+fn save(picture: &Picture, path: &Path) {
+    let rgb: Vec<u8> = picture
+        .bytes
+        .chunks_exact(4)
+        .flat_map(|texel| &texel[..3])
+        .copied()
+        .collect();
+    let [width, height] = picture.size.to_array();
+    let image = image::RgbImage::from_raw(width, height, rgb).expect("as large as it says");
+    image.save(path).expect("the picture is written");
+}
+
+/// `WELKIN_BLESS=1` writes the golden picture anew.
+#[test]
+fn the_example_looks_as_it_did() {
+    let (sky, transform) = example();
+    let shown = flown(sky, SIZE, transform);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/flying.png");
+    if std::env::var_os("WELKIN_BLESS").is_some() {
+        save(&shown, &path);
+    }
+    let golden = image::open(&path).expect("the golden picture").to_rgb8();
+    assert_eq!(golden.dimensions(), (SIZE.x, SIZE.y));
+    let pairs = shown
+        .bytes
+        .chunks_exact(4)
+        .flat_map(|texel| &texel[..3])
+        .zip(golden.as_raw());
+    let apart = pairs.map(|(&shown, &golden)| f64::from(shown.abs_diff(golden)));
+    let mean = apart.clone().sum::<f64>() / f64::from(3 * SIZE.x * SIZE.y);
+    let far = apart.filter(|&apart| apart > 24.0).count();
+    // Another driver may take another side of an edge of the stones or of their shadows, and round by a level or two.
+    assert!(mean < 1.5, "levels apart on average: {mean}");
+    assert!(
+        far < (SIZE.x * SIZE.y / 50) as usize,
+        "channels far apart: {far}"
+    );
+}
+
+/// Pictures to look at: `WELKIN_LOOK=folder cargo test looked_at -- --ignored`.
+#[test]
+#[ignore = "writes pictures for a person to look at"]
+fn looked_at() {
+    let folder = std::env::var("WELKIN_LOOK").expect("WELKIN_LOOK names a folder");
+    let folder = Path::new(&folder);
+    let (day, ahead) = example();
+    let mut moments = vec![("day".to_string(), day, ahead)];
+    let towards = |azimuth: f32, up: f32| {
+        let way = Vec3::new(azimuth.sin(), up, -azimuth.cos());
+        Transform::from_xyz(0.0, 30.0, 130.0).looking_to(way, Vec3::Y)
+    };
+    for (name, time, azimuth) in [
+        ("dusk", 0.735_f32, 4.55_f32),
+        ("dusk-away", 0.735, 1.4),
+        ("noon", 0.5, 3.1),
+        ("night", 0.02, 3.1),
+    ] {
+        let mut sky = day;
+        sky.params.time = time;
+        moments.push((name.to_string(), sky, towards(azimuth, 0.12)));
+    }
+    for method in Method::ALL {
+        let mut sky = day;
+        sky.params.method = method;
+        moments.push((method.name().to_string(), sky, towards(0.3, 0.15)));
+    }
+    for (name, sky, transform) in moments {
+        let shown = flown(sky, UVec2::new(960, 540), transform);
+        save(&shown, &folder.join(format!("{name}.png")));
+    }
+}
+
+/// A wall of pure light, so many metres to the north, that fills the picture.
+fn wall(stage: &mut Stage, distance_m: f32) {
+    let side = 4.0 * distance_m;
+    let mesh = stage.add(Mesh::from(Rectangle::new(side, side)));
+    let material = stage.add(StandardMaterial {
+        base_color: Color::linear_rgb(0.0, 1.0, 0.0),
+        unlit: true,
+        ..default()
+    });
+    let place = Transform::from_xyz(0.0, 1000.0, -distance_m);
+    let world = stage.app.world_mut();
+    world.spawn((Mesh3d(mesh), MeshMaterial3d(material), place));
+}
+
+#[test]
+fn clouds_in_space_stand_before_what_is_farther_and_behind_what_is_nearer() {
+    let mut sky = WelkinSky::default();
+    sky.params.method = Method::Sprites;
+    sky.params.cover = 0.6;
+    sky.params.time = 0.45;
+    let seen = |distance_m: Option<f32>| {
+        let mut stage = Stage::new("assets");
+        let pack = stage.pack();
+        stage.app.insert_resource(sky);
+        if let Some(distance_m) = distance_m {
+            wall(&mut stage, distance_m);
+        }
+        let place =
+            Transform::from_xyz(0.0, 1000.0, 0.0).looking_to(Vec3::new(0.0, 0.05, -1.0), Vec3::Y);
+        let (camera, image) = stage.camera(&pack, place);
+        let lens = PerspectiveProjection {
+            far: 1e5,
+            ..default()
+        };
+        let mut camera = stage.app.world_mut().entity_mut(camera);
+        camera.insert(Projection::from(lens));
+        stage.shoot(&image)
+    };
+    let [open, near, far] = [None, Some(20.0), Some(40_000.0)].map(seen);
+    let green = Vec3::Y;
+    let walls = |picture: &Picture| {
+        let wall = picture
+            .pixels
+            .iter()
+            .filter(|pixel| (**pixel - green).abs().max_element() < 1e-3);
+        wall.count() as f32 / picture.pixels.len() as f32
+    };
+    assert_eq!(walls(&open), 0.0);
+    assert_eq!(walls(&near), 1.0, "a near wall hides all");
+    // Before the far one stand clouds, and nothing else of the sky.
+    let shown = walls(&far);
+    assert!((0.05..0.95).contains(&shown), "{shown}");
+    let opaque = far.pixels.iter().zip(&open.pixels);
+    let same = opaque
+        .filter(|(far, open)| (**far - **open).abs().max_element() < 0.02 * open.max_element());
+    let same = same.count() as f32 / far.pixels.len() as f32;
+    assert!(same > 0.05, "clouds look as without a wall behind: {same}");
+}
+
+/// What a camera with Bevy's atmosphere sees, with a sky of ours over it or without.
+fn with_atmosphere(sky: Option<WelkinSky>, time: f32, towards: Vec3) -> Picture {
+    let mut stage = Stage::new("assets");
+    let pack = stage.pack();
+    let mut settings = sky.unwrap_or_default();
+    settings.params.time = time;
+    stage.app.insert_resource(settings);
+    let place = Transform::from_xyz(0.0, 2.0, 0.0).looking_to(towards, Vec3::Y);
+    let (camera, image) = stage.camera(&pack, place);
+    let medium = stage.add(ScatteringMedium::earth(64, 64));
+    let world = stage.app.world_mut();
+    // Coarse tables: a software rasteriser fills them.
+    world.entity_mut(camera).insert(AtmosphereSettings {
+        transmittance_lut_size: UVec2::new(64, 32),
+        multiscattering_lut_size: UVec2::splat(8),
+        sky_view_lut_size: UVec2::new(64, 32),
+        aerial_view_lut_size: UVec3::splat(8),
+        multiscattering_lut_dirs: 64,
+        ..default()
+    });
+    world.spawn(Atmosphere::earth(medium));
+    world.spawn((DirectionalLight::default(), WelkinLight, SunDisk::OFF));
+    if sky.is_none() {
+        // The light goes on as it was set.
+        stage.update(2);
+        stage
+            .app
+            .world_mut()
+            .entity_mut(camera)
+            .remove::<WelkinView>();
+    }
+    stage.shoot(&image)
+}
+
+#[test]
+fn clouds_stars_and_moon_lie_over_bevys_atmosphere() {
+    let mut clear = WelkinSky::default();
+    clear.params.cover = 0.0;
+    let up = Vec3::new(0.3, 0.8, -0.6);
+    let bare = with_atmosphere(None, 0.45, up);
+    assert!(
+        bare.mean().z > 0.02 && bare.mean().z > bare.mean().x,
+        "a blue sky: {}",
+        bare.mean()
+    );
+    let (mean, far) = with_atmosphere(Some(clear), 0.45, up).differs(&bare);
+    assert!(
+        mean < 2e-3 && far < 2e-3,
+        "a clear sky is left as it is: {mean} {far}"
+    );
+
+    let mut cloudy = clear;
+    cloudy.params.cover = 0.5;
+    let clouds = with_atmosphere(Some(cloudy), 0.45, up);
+    let pairs = clouds.pixels.iter().zip(&bare.pixels);
+    let open = pairs
+        .clone()
+        .filter(|(a, b)| (**a - **b).abs().max_element() < 0.02 * b.max_element());
+    let white = pairs.filter(|(a, b)| a.x > 1.5 * b.x);
+    let [open, white] =
+        [open.count(), white.count()].map(|count| count as f32 / bare.pixels.len() as f32);
+    assert!(open > 0.1 && white > 0.2, "gaps {open}, clouds {white}");
+
+    // Over the ground nothing is drawn.
+    let down = Vec3::new(0.0, -0.5, -1.0);
+    let (mean, _) =
+        with_atmosphere(Some(cloudy), 0.45, down).differs(&with_atmosphere(None, 0.45, down));
+    assert!(mean < 2e-3, "{mean}");
+
+    let mut night = clear;
+    night.params.moon = 0.0;
+    let dark = with_atmosphere(None, 0.0, up);
+    let stars = with_atmosphere(Some(night), 0.0, up);
+    let brightest = |picture: &Picture| {
+        picture
+            .pixels
+            .iter()
+            .map(|p| p.max_element())
+            .fold(0.0, f32::max)
+    };
+    assert!(
+        brightest(&stars) > brightest(&dark) + 0.01,
+        "{} {}",
+        brightest(&stars),
+        brightest(&dark)
+    );
+}
