@@ -12,8 +12,8 @@ use bevy::light::CascadeShadowConfigBuilder;
 use bevy::prelude::*;
 use bevy_welkin::welkin_runtime::Method;
 use bevy_welkin::{
-    WelkinAir, WelkinEnvironment, WelkinLight, WelkinPack, WelkinPlugin, WelkinShadows, WelkinSky,
-    WelkinView,
+    GlobalWelkinSky, WelkinAir, WelkinEnvironment, WelkinLight, WelkinPack, WelkinPlugin,
+    WelkinShadows, WelkinView,
 };
 
 /// In metres a second.
@@ -32,7 +32,7 @@ fn main() {
 fn spawn(
     mut commands: Commands,
     mut packs: ResMut<Assets<WelkinPack>>,
-    mut sky: ResMut<WelkinSky>,
+    mut sky: ResMut<GlobalWelkinSky>,
     assets: Res<AssetServer>,
 ) -> Result {
     let pack = match std::env::args().nth(1) {
@@ -100,7 +100,7 @@ fn fly(
     camera.translation.y = camera.translation.y.max(ground_m + 2.0);
 }
 
-fn set(mut sky: ResMut<WelkinSky>, keys: Res<ButtonInput<KeyCode>>, time: Res<Time>) {
+fn set(mut sky: ResMut<GlobalWelkinSky>, keys: Res<ButtonInput<KeyCode>>, time: Res<Time>) {
     let axis = |more, less| f32::from(keys.pressed(more)) - f32::from(keys.pressed(less));
     let step = time.delta_secs();
     let hour = sky.params.time + 0.03 * step * axis(KeyCode::KeyT, KeyCode::KeyG);

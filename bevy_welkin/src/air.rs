@@ -6,12 +6,12 @@ use bevy::prelude::*;
 
 use crate::WelkinSystems;
 use crate::light::{WelkinLight, WelkinViewLight, luminary};
-use crate::settings::bevy_vec3;
+use crate::settings::{bevy_vec3, sky_vec3};
 
 /// On a camera with a [`WelkinView`](crate::WelkinView): its [`DistanceFog`] is written each frame, so that what is far goes over into the horizon.
 ///
-/// The fog has one extinction along the whole way, that of the air at the camera's height, where the air of the sky itself thins out between the two
-/// heights. Materials of your own have that with [`welkin_runtime::air::WGSL`].
+/// The fog has one extinction along every way, the mean between the camera's height and the ground: hills that stand above the camera are hazier than the
+/// sky's own air has them. Materials of your own have that with [`welkin_runtime::air::WGSL`].
 #[derive(Component, Clone, Copy, Debug, Default, Reflect)]
 #[reflect(Component, Clone, Debug, Default)]
 #[require(DistanceFog)]
@@ -20,6 +20,8 @@ pub struct WelkinAir;
 /// Of the way from the darkest horizon to that below the sun, which the fog has everywhere: the rest goes with the cosine to the sun. The air has
 /// `((1 + cos) / 2)^2`, which this is within 0.15 of.
 const EVERYWHERE: f32 = 0.1;
+/// Of a way to the ground whose mean extinction the fog has, in metres.
+const FAR_M: f32 = 1e4;
 /// Cosine of the sun's elevation below which its azimuth tells nothing.
 const LEAST_LEVEL: f32 = 0.3;
 
@@ -59,8 +61,10 @@ fn drive(
         fog.directional_light_exponent = 1.0;
 
         let metres = view.sky.metres_per_unit;
-        let height_m = place.translation().y.max(0.0) * metres;
-        let extinction = bevy_vec3(air.extinction_per_m(height_m)) * metres;
+        let eye = sky_vec3(Vec3::Y * place.translation().y.max(0.0) * metres);
+        let far = sky_vec3(Vec3::X * FAR_M);
+        let left = bevy_vec3(air.transmittance(eye, far));
+        let extinction = -left.ln() / eye.distance(far) * metres;
         fog.falloff = FogFalloff::Atmospheric {
             extinction,
             inscattering: extinction,

@@ -7,13 +7,13 @@
 //! ```no_run
 //! use bevy::camera::Exposure;
 //! use bevy::prelude::*;
-//! use bevy_welkin::{WelkinAir, WelkinEnvironment, WelkinLight, WelkinPlugin, WelkinSky, WelkinView};
+//! use bevy_welkin::{GlobalWelkinSky, WelkinAir, WelkinEnvironment, WelkinLight, WelkinPlugin, WelkinView};
 //!
 //! fn main() {
 //!     App::new()
 //!         .add_plugins((DefaultPlugins, WelkinPlugin))
 //!         .add_systems(Startup, spawn)
-//!         .add_systems(Update, |time: Res<Time>, mut sky: ResMut<WelkinSky>| {
+//!         .add_systems(Update, |time: Res<Time>, mut sky: ResMut<GlobalWelkinSky>| {
 //!             // A day in four minutes.
 //!             sky.params.time = (0.3 + time.elapsed_secs() / 240.0).fract();
 //!         })
@@ -56,7 +56,7 @@ pub use air::WelkinAir;
 pub use environment::WelkinEnvironment;
 pub use light::{WelkinLight, WelkinViewLight};
 pub use pack::{WelkinPack, WelkinPackError, WelkinPackLoader};
-pub use settings::{Params, UNIT_CD_M2, WelkinSky, WelkinView};
+pub use settings::{GlobalWelkinSky, Params, UNIT_CD_M2, WelkinSky, WelkinView};
 #[cfg(feature = "shadows")]
 pub use shadows::WelkinShadows;
 pub use welkin_pack;

@@ -7,7 +7,7 @@ use welkin_runtime::{Luminary, SkyLight};
 
 use crate::WelkinSystems;
 use crate::pack::WelkinPack;
-use crate::settings::{WelkinSky, WelkinView, bevy_vec3};
+use crate::settings::{GlobalWelkinSky, WelkinSky, WelkinView, bevy_vec3};
 
 /// The light of the sky that a camera sees, on every camera with a [`WelkinView`] whose pack is loaded. Radiance and irradiance are in the sky's own
 /// unit: times [`WelkinSky::unit_cd_m2`] they are cd/m2 and lux.
@@ -47,7 +47,7 @@ fn compute(
         Has<AtmosphereSettings>,
     )>,
     packs: Res<Assets<WelkinPack>>,
-    shared: Res<WelkinSky>,
+    shared: Res<GlobalWelkinSky>,
     time: Res<Time>,
 ) {
     for (entity, view, own, over) in &views {

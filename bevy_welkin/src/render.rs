@@ -19,7 +19,7 @@ use welkin_runtime::params::Tonemap;
 use welkin_runtime::{DepthConfig, Sky, SkyConfig, View, glam};
 
 use crate::pack::WelkinPack;
-use crate::settings::{WelkinSky, WelkinView};
+use crate::settings::{GlobalWelkinSky, WelkinSky, WelkinView};
 
 /// What a camera sees, in the render world.
 #[derive(Component, Clone)]
@@ -47,7 +47,7 @@ fn extract(
         )>,
     >,
     packs: Extract<Res<Assets<WelkinPack>>>,
-    shared: Extract<Res<WelkinSky>>,
+    shared: Extract<Res<GlobalWelkinSky>>,
     time: Extract<Res<Time>>,
 ) {
     for (entity, view, own, tonemapping, over) in &views {

@@ -10,9 +10,9 @@ use crate::pack::WelkinPack;
 /// [`SkyLight::unit_cd_m2`](welkin_runtime::SkyLight::unit_cd_m2). Under the exposure of sunlight, EV100 15, a radiance of 1 is 0.81 in the target.
 pub const UNIT_CD_M2: f32 = 32_000.0;
 
-/// What the sky shall look like. The resource is for every camera; as a component of a camera it is for that one alone.
-#[derive(Resource, Clone, Copy, Debug, PartialEq, Reflect, Serialize, Deserialize)]
-#[reflect(Resource, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// What the sky of one camera shall look like: a component of that camera, in place of [`GlobalWelkinSky`].
+#[derive(Component, Clone, Copy, Debug, PartialEq, Reflect, Serialize, Deserialize)]
+#[reflect(Component, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct WelkinSky {
     /// Clouds, hour, weather and all else that is of the sky.
@@ -62,6 +62,24 @@ impl WelkinSky {
     }
 }
 
+/// What the sky of every camera shall look like that has no [`WelkinSky`] of its own.
+#[derive(
+    Resource,
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Deref,
+    DerefMut,
+    Reflect,
+    Serialize,
+    Deserialize,
+)]
+#[reflect(Resource, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct GlobalWelkinSky(pub WelkinSky);
+
 /// The parameters of [`welkin_runtime`], opaque for reflection: it reads and writes them whole, by serde.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Deref, DerefMut, Reflect, Serialize, Deserialize,
@@ -98,7 +116,8 @@ pub(crate) fn bevy_vec3(vector: welkin_runtime::glam::Vec3) -> Vec3 {
 }
 
 pub(crate) fn build(app: &mut App) {
-    app.init_resource::<WelkinSky>()
+    app.init_resource::<GlobalWelkinSky>()
+        .register_type::<GlobalWelkinSky>()
         .register_type::<WelkinSky>()
         .register_type::<WelkinView>();
 }

@@ -5,6 +5,7 @@ use std::f32::consts::PI;
 use bevy::camera::Exposure;
 use bevy::light::light_consts::lux::RAW_SUNLIGHT;
 use bevy::pbr::AtmosphereSettings;
+use bevy::pbr::decal::clustered::clustered_decals_are_usable;
 use bevy::prelude::*;
 use bevy_welkin::welkin_runtime::{Method, SkyLight};
 use bevy_welkin::{
@@ -56,7 +57,7 @@ fn the_directional_light_is_where_the_sun_is_and_as_bright() {
         let mut sky = WelkinSky::default();
         sky.params.time = time;
         sky.params.cover = overcast;
-        stage.app.insert_resource(sky);
+        stage.set(sky);
         stage.update(2);
         let expected = light(&sky);
         let from = if time < 0.1 {
@@ -93,7 +94,7 @@ fn a_white_plane_has_the_radiance_that_the_sky_says() {
     let mut sky = WelkinSky::default();
     sky.params.time = 0.42;
     sky.params.cover = 0.3;
-    stage.app.insert_resource(sky);
+    stage.set(sky);
     let scale = UNIT_CD_M2 * Exposure::SUNLIGHT.exposure();
     let expected = light(&sky);
     let up = bevy_welkin::welkin_runtime::glam::Vec3::Y;
@@ -124,7 +125,7 @@ fn a_white_plane_has_the_radiance_that_the_sky_says() {
 
     // The map of a sky that has changed takes the place of the last one.
     sky.params.time = 0.27;
-    stage.app.insert_resource(sky);
+    stage.set(sky);
     let shown = stage.shoot(&image).about(0.5, 0.5);
     let early = bevy_vec3(light(&sky).ambient_irradiance(up)) / PI * scale;
     assert!(early.max_element() < 0.7 * ambient.max_element(), "{early}");
@@ -139,7 +140,7 @@ fn what_is_far_goes_over_into_the_horizon() {
     let mut stage = Stage::new("assets");
     let pack = stage.pack();
     plane(&mut stage, 4e5);
-    let far = Transform::from_xyz(0.0, 40.0, 0.0).looking_to(Vec3::NEG_Z, Vec3::Y);
+    let far = Transform::from_xyz(0.0, 300.0, 0.0).looking_to(Vec3::NEG_Z, Vec3::Y);
     let (camera, image) = stage.camera(&pack, far);
     let mut lens = PerspectiveProjection::default();
     lens.far = 2e5;
@@ -155,69 +156,75 @@ fn what_is_far_goes_over_into_the_horizon() {
     let mut sky = WelkinSky::default();
     sky.params.cover = 0.0;
     sky.params.time = 0.5;
-    stage.app.insert_resource(sky);
-    // A pixel below the horizon is white ground some 30 km away, one above it sky.
-    let edge = |picture: &crate::stage::Picture| {
-        let row = |y: u32| {
-            (0..picture.size.x).map(|x| picture.at(x, y)).sum::<Vec3>() / picture.size.x as f32
-        };
-        let middle = picture.size.y / 2;
-        (row(middle - 2), row(middle + 1))
-    };
-    let (above, below) = edge(&stage.shoot(&image));
-    let clear = (below - above).abs().max_element() / above.max_element();
+    stage.set(sky);
+    // Ground some 37 km away, and the radiance of the air before it.
+    let shown = |stage: &mut Stage| stage.shoot(&image).about(0.5, 0.5 + 5.5 / 144.0);
+    let clear = shown(&mut stage);
     stage.app.world_mut().entity_mut(camera).insert(WelkinAir);
-    let (above, below) = edge(&stage.shoot(&image));
-    let hazed = (below - above).abs().max_element() / above.max_element();
+    let hazed = shown(&mut stage);
+    let scale = UNIT_CD_M2 * Exposure::SUNLIGHT.exposure();
+    let air = light(&sky).air;
+    // Nine rows, of which the middle looks down by 5.5 pixels of 45 / 144 degrees.
+    let distance_m = 300.0 / (5.5_f32 * 45.0 / 144.0).to_radians().tan();
+    let [eye, place] = [Vec3::Y * 300.0, Vec3::NEG_Z * distance_m].map(|v| v.to_array().into());
+    let radiance = (clear / scale).to_array().into();
+    let expected = bevy_vec3(air.between(radiance, eye, place)) * scale;
     assert!(
-        clear > 0.3 && hazed < 0.15,
-        "without air {clear}, with it {hazed}: {above} {below}"
+        (clear - expected).abs().max_element() > 0.1 * clear.max_element(),
+        "far enough: {clear} {expected}"
+    );
+    // The fog's glow and its one extinction are near those of the air, see WelkinAir; nine rows reach from 6 to 60 km.
+    assert!(
+        (hazed - expected).abs().max_element() < 0.12 * expected.max_element(),
+        "{hazed} {expected}, clear {clear}"
     );
 }
 
-#[test]
-fn clouds_throw_shadows_on_materials_where_the_sky_has_them() {
-    let mut stage = Stage::new("assets");
+const EXTENT_M: f32 = 4000.0;
+
+/// A white plane under broken clouds that throw shadows, seen from so high above that a picture is 2 km high.
+fn shadowed(stage: &mut Stage) -> (WelkinSky, Transform, Entity, Handle<Image>) {
     let pack = stage.pack();
-    const EXTENT_M: f32 = 4000.0;
-    plane(&mut stage, 2.0 * EXTENT_M);
-    // The middle of the shadows, seen from above: 1 km each way at the shorter side of the picture.
+    plane(stage, 2.0 * EXTENT_M);
     let above = Transform::from_xyz(0.0, 2414.0, 0.0).looking_to(Vec3::NEG_Y, Vec3::NEG_Z);
     let (camera, image) = stage.camera(&pack, above);
-    let mut lens = PerspectiveProjection::default();
-    lens.far = 1e4;
-    stage
-        .app
-        .world_mut()
-        .entity_mut(camera)
-        .insert(Projection::from(lens));
+    let lens = PerspectiveProjection {
+        far: 1e4,
+        ..default()
+    };
     let world = stage.app.world_mut();
-    let sun = world
-        .spawn((DirectionalLight::default(), WelkinLight, WelkinShadows))
-        .id();
+    world.entity_mut(camera).insert(Projection::from(lens));
+    let sun = (DirectionalLight::default(), WelkinLight, WelkinShadows);
+    let sun = world.spawn(sun).id();
     world.resource_mut::<GlobalAmbientLight>().brightness = 0.0;
     let mut sky = WelkinSky::default();
     sky.params.method = Method::Lit;
     sky.params.cover = 0.5;
     sky.params.time = 0.42;
     sky.params.shadow_extent_m = EXTENT_M;
-    stage.app.insert_resource(sky);
-    let shown = stage.shoot(&image);
+    stage.set(sky);
+    (sky, above, sun, image)
+}
 
+#[test]
+#[ignore = "software drivers have no binding arrays, which Bevy's light textures want: wants a GPU"]
+fn clouds_throw_shadows_on_materials() {
+    let mut stage = Stage::new("assets");
+    let (sky, above, _, image) = shadowed(&mut stage);
+    let shown = stage.shoot(&image);
     // The shadows as the runtime has them for a viewer at this place.
     let map = crate::views::shadows(&stage, &sky, above.translation);
     let light = light(&sky);
     let scale = UNIT_CD_M2 * Exposure::SUNLIGHT.exposure();
-    let clear =
-        luminance(bevy_vec3(light.sun.clear_irradiance)) * light.sun.direction.y / PI * scale;
+    let clear = light.sun.clear_irradiance * light.sun.direction.y / PI * scale;
+    let clear = luminance(bevy_vec3(clear));
     let metres_a_pixel = 2000.0 / shown.size.y as f32;
     let (mut apart, mut spread, mut pixels) = (0.0, 0.0, 0);
     let mean = map.iter().sum::<f32>() / map.len() as f32;
     for y in (4..shown.size.y - 4).step_by(4) {
         for x in (60..shown.size.x - 60).step_by(4) {
-            let from_middle =
-                (Vec2::new(x as f32, y as f32) + 0.5 - shown.size.as_vec2() / 2.0) * metres_a_pixel;
-            let texel = (from_middle / EXTENT_M + 0.5) * 256.0;
+            let pixel = Vec2::new(x as f32, y as f32) + 0.5 - shown.size.as_vec2() / 2.0;
+            let texel = (pixel * metres_a_pixel / EXTENT_M + 0.5) * 256.0;
             let expected = map[texel.y as usize * 256 + texel.x as usize];
             apart += (luminance(shown.at(x, y)) / clear - expected).abs();
             spread += (expected - mean).abs();
@@ -226,22 +233,40 @@ fn clouds_throw_shadows_on_materials_where_the_sky_has_them() {
     }
     let [apart, spread] = [apart, spread].map(|sum| sum / pixels as f32);
     assert!(spread > 0.1, "clouds and gaps: {spread}");
-    assert!(apart < 0.04, "{apart} of {spread}");
+    assert!(apart < 0.05, "{apart} of {spread}");
+}
 
-    // Another method has none: its clouds dim the light by their mean.
-    let lux = |stage: &Stage| {
-        stage
-            .app
-            .world()
-            .get::<DirectionalLight>(sun)
-            .expect("a light")
-            .illuminance
-    };
-    let each = lux(&stage);
-    sky.params.method = Method::Packed;
-    stage.app.insert_resource(sky);
+#[test]
+fn without_shadows_of_each_clouds_dim_the_light_by_their_mean() {
+    let mut stage = Stage::new("assets");
+    let (mut sky, _, sun, image) = shadowed(&mut stage);
     stage.update(3);
-    assert!(lux(&stage) < 0.9 * each, "{} {each}", lux(&stage));
+    let world = stage.app.world();
+    let usable = clustered_decals_are_usable(world.resource(), world.resource());
+    let lux = |stage: &Stage| {
+        let light = stage.app.world().get::<DirectionalLight>(sun);
+        light.expect("a light").illuminance
+    };
+    let expected = light(&sky).sun;
+    let [mean, clear] = [expected.irradiance, expected.clear_irradiance]
+        .map(|irradiance| luminance(bevy_vec3(irradiance)) * UNIT_CD_M2);
+    assert!(mean < 0.9 * clear, "{mean} {clear}");
+    let each = if usable { clear } else { mean };
+    assert!(
+        (lux(&stage) - each).abs() < 1e-3 * each,
+        "{} {each}",
+        lux(&stage)
+    );
+    // No other method throws any.
+    sky.params.method = Method::Packed;
+    stage.set(sky);
+    stage.shoot(&image);
+    let mean = luminance(bevy_vec3(light(&sky).sun.irradiance)) * UNIT_CD_M2;
+    assert!(
+        (lux(&stage) - mean).abs() < 1e-3 * mean,
+        "{} {mean}",
+        lux(&stage)
+    );
 }
 
 #[test]
@@ -256,7 +281,7 @@ fn an_atmosphere_gets_the_light_above_it() {
     let sun = world.spawn((DirectionalLight::default(), WelkinLight)).id();
     let mut sky = WelkinSky::default();
     sky.params.cover = 0.0;
-    stage.app.insert_resource(sky);
+    stage.set(sky);
     // Only its lights: the atmosphere itself is in pictures.rs.
     stage
         .app

@@ -50,7 +50,7 @@ fn a_pack_is_loaded_and_loaded_anew_when_its_files_change() {
     let mut sky = WelkinSky::default();
     sky.params.cover = 0.5;
     sky.params.method = Method::Packed;
-    stage.app.insert_resource(sky);
+    stage.set(sky);
     let up = Transform::default().looking_to(Vec3::new(0.2, 1.0, -0.3), Vec3::X);
     let (_, image) = stage.camera(&loaded, up);
     assert!(
@@ -60,7 +60,9 @@ fn a_pack_is_loaded_and_loaded_anew_when_its_files_change() {
     );
     let first = stage.shoot(&image);
 
-    saved(&other_pack(), &folder);
+    for (name, bytes) in other_pack().files() {
+        std::fs::write(folder.join(name), bytes).expect("written");
+    }
     let replaced = until(&mut stage, |stage| {
         let packs = stage.app.world().resource::<Assets<WelkinPack>>();
         packs.get(&loaded).is_some_and(|now| now.pack() != pack())

@@ -13,11 +13,12 @@ use bevy::render::RenderPlugin;
 use bevy::render::gpu_readback::{Readback, ReadbackComplete};
 use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
 use bevy::render::render_resource::{TextureFormat, TextureUsages};
+use bevy::render::settings::{WgpuFeatures, WgpuSettings};
 use bevy::time::TimeUpdateStrategy;
 use bevy::window::ExitCondition;
 use bevy::winit::WinitPlugin;
 use bevy_welkin::welkin_pack::Pack;
-use bevy_welkin::{WelkinPack, WelkinPlugin, WelkinView};
+use bevy_welkin::{GlobalWelkinSky, WelkinPack, WelkinPlugin, WelkinSky, WelkinView};
 
 use crate::scene;
 
@@ -62,6 +63,12 @@ impl Stage {
             })
             .set(RenderPlugin {
                 synchronous_pipeline_compilation: true,
+                render_creation: WgpuSettings {
+                    // Mesa 22's software Vulkan crashes where Bevy's atmosphere blends with two sources.
+                    disabled_features: Some(WgpuFeatures::DUAL_SOURCE_BLENDING),
+                    ..default()
+                }
+                .into(),
                 ..default()
             })
             .set(AssetPlugin {
@@ -87,6 +94,11 @@ impl Stage {
     pub fn pack(&mut self) -> Handle<WelkinPack> {
         let pack = WelkinPack::new(pack().clone()).expect("the pack has a sky");
         self.add(pack)
+    }
+
+    /// The sky of every camera that has none of its own.
+    pub fn set(&mut self, sky: WelkinSky) {
+        self.app.insert_resource(GlobalWelkinSky(sky));
     }
 
     pub fn add<A: Asset>(&mut self, asset: A) -> Handle<A> {

@@ -148,7 +148,7 @@ fn sky(method: Method) -> WelkinSky {
 fn a_camera_sees_what_the_runtime_draws_in_every_target() {
     let mut stage = Stage::new("assets");
     let pack = stage.pack();
-    stage.app.insert_resource(sky(Method::Fbm));
+    stage.set(sky(Method::Fbm));
     let expected = alone(&stage, &sky(Method::Fbm), upwards());
 
     let (camera, image) = stage.camera(&pack, upwards());
@@ -177,17 +177,17 @@ fn a_camera_sees_what_the_runtime_draws_in_every_target() {
     };
     let (mean, _) = stage.shoot(&shown).differs(&clipped);
     assert!(mean < 0.01, "a display's bytes: {mean}");
-    let curve = Tonemapping::KhronosPbrNeutral;
+    let curve = Tonemapping::AgX;
     stage.app.world_mut().entity_mut(camera).insert(curve);
     let (mean, _) = stage.shoot(&shown).differs(&clipped);
-    assert!(mean > 0.01, "the camera's own tone curve: {mean}");
+    assert!(mean > 0.05, "the camera's own tone curve: {mean}");
 }
 
 #[test]
-fn cameras_have_skies_of_their_own_side_by_side_and_after_a_resize() {
+fn cameras_have_skies_of_their_own_side_by_side() {
     let mut stage = Stage::new("assets");
     let pack = stage.pack();
-    stage.app.insert_resource(sky(Method::Packed));
+    stage.set(sky(Method::Packed));
     let mut dusk = sky(Method::Octaves);
     dusk.params.time = 0.74;
 
@@ -240,7 +240,7 @@ fn cameras_have_skies_of_their_own_side_by_side_and_after_a_resize() {
 fn a_sky_follows_the_size_of_its_target() {
     let mut stage = Stage::new("assets");
     let pack = stage.pack();
-    stage.app.insert_resource(sky(Method::Packed));
+    stage.set(sky(Method::Packed));
     let (_, image) = stage.camera(&pack, upwards());
     let before = stage.shoot(&image);
     let larger = 2 * SIZE;
@@ -254,9 +254,16 @@ fn a_sky_follows_the_size_of_its_target() {
     drop(target);
     let after = stage.shoot(&image);
     assert_eq!(after.size, larger);
-    for (x, y) in [(0.2, 0.2), (0.5, 0.5), (0.8, 0.3), (0.3, 0.8)] {
-        let (small, large) = (before.about(x, y), after.about(x, y));
-        let apart = (small - large).abs().max_element() / small.max_element();
-        assert!(apart < 0.1, "{x} {y}: {small} {large}");
-    }
+    let quarters = |x: u32, y: u32| {
+        let four = [(0, 0), (1, 0), (0, 1), (1, 1)];
+        four.map(|(i, j)| after.at(2 * x + i, 2 * y + j))
+    };
+    let halved = (0..SIZE.x * SIZE.y).map(|i| quarters(i % SIZE.x, i / SIZE.x));
+    let halved = Picture {
+        pixels: halved.map(|four| four.iter().sum::<Vec3>() / 4.0).collect(),
+        ..before.clone()
+    };
+    // Clouds are drawn in finer detail.
+    let (mean, _) = halved.differs(&before);
+    assert!(mean < 0.03, "{mean}");
 }

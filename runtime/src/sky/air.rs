@@ -63,12 +63,6 @@ impl Air {
         uniform
     }
 
-    /// Extinction by both at a height over the ground in metres, 1 / m.
-    pub fn extinction_per_m(&self, height_m: f32) -> Vec3 {
-        let [molecules, aerosol] = HEIGHTS_M.map(|scale_m| (-height_m / scale_m).exp());
-        self.molecules_per_m * molecules + self.aerosol_per_m * aerosol
-    }
-
     /// The share of light that comes from one place to another, in metres to the east, up and to the south.
     pub fn transmittance(&self, from: Vec3, to: Vec3) -> Vec3 {
         let distance_m = from.distance(to);
@@ -136,9 +130,6 @@ mod tests {
         let level = air.transmittance(Vec3::ZERO, Vec3::new(1e4, 0.0, 0.0));
         let even = (-(air.molecules_per_m + air.aerosol_per_m) * 1e4).exp();
         assert!((level - even).abs().max_element() < 1e-6);
-        let above = air.transmittance(Vec3::Y * 900.0, Vec3::new(1e4, 900.0, 0.0));
-        let even = (-air.extinction_per_m(900.0) * 1e4).exp();
-        assert!((above - even).abs().max_element() < 1e-6);
         let sun = Vec3::new(0.6, 0.0, 0.8) * 1e7;
         for (way, horizon) in [(sun, air.horizon[0]), (-sun, air.horizon[1])] {
             let seen = air.between(Vec3::ONE, Vec3::ZERO, way);
