@@ -5,14 +5,14 @@
 
 mod scene;
 
-use bevy::camera::{Exposure, Hdr};
+use bevy::camera::Hdr;
 use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::input::mouse::AccumulatedMouseMotion;
 use bevy::light::CascadeShadowConfigBuilder;
 use bevy::prelude::*;
 use bevy_welkin::welkin_runtime::Method;
 use bevy_welkin::{
-    GlobalWelkinSky, WelkinAir, WelkinEnvironment, WelkinLight, WelkinPack, WelkinPlugin,
+    DAYLIGHT, GlobalWelkinSky, WelkinAir, WelkinEnvironment, WelkinLight, WelkinPack, WelkinPlugin,
     WelkinShadows, WelkinView,
 };
 
@@ -50,7 +50,7 @@ fn spawn(
             ..default()
         }),
         Transform::from_xyz(0.0, 30.0, 130.0).looking_to(Vec3::new(0.3, 0.08, -1.0), Vec3::Y),
-        Exposure::SUNLIGHT,
+        DAYLIGHT,
         Hdr,
         Tonemapping::AcesFitted,
         WelkinView(pack),

@@ -5,9 +5,8 @@
 //! and fog.
 //!
 //! ```no_run
-//! use bevy::camera::Exposure;
 //! use bevy::prelude::*;
-//! use bevy_welkin::{GlobalWelkinSky, WelkinAir, WelkinEnvironment, WelkinLight, WelkinPlugin, WelkinView};
+//! use bevy_welkin::{DAYLIGHT, GlobalWelkinSky, WelkinAir, WelkinEnvironment, WelkinLight, WelkinPlugin, WelkinView};
 //!
 //! fn main() {
 //!     App::new()
@@ -24,7 +23,7 @@
 //!     let pack = assets.load("sky/pack.json");
 //!     commands.spawn((
 //!         Camera3d::default(),
-//!         Exposure::SUNLIGHT,
+//!         DAYLIGHT,
 //!         WelkinView(pack),
 //!         WelkinEnvironment,
 //!         WelkinAir,
@@ -38,7 +37,7 @@
 //!
 //! A radiance of 1, about the white of a sunlit cloud at noon, stands for [`WelkinSky::unit_cd_m2`], by default [`UNIT_CD_M2`]: the sun of the default pack then
 //! gives some 80,000 lux at noon. Lights are set by the same number, so that sky and scene agree under every [`Exposure`](bevy::camera::Exposure).
-//! `Exposure::SUNLIGHT`, EV100 15, shows a day as it should be; Bevy's default, EV100 9.7, is for rooms.
+//! [`DAYLIGHT`] is one for a day; Bevy's default, EV100 9.7, is for rooms.
 
 mod air;
 mod draw;
@@ -56,7 +55,7 @@ pub use air::WelkinAir;
 pub use environment::WelkinEnvironment;
 pub use light::{WelkinLight, WelkinViewLight};
 pub use pack::{WelkinPack, WelkinPackError, WelkinPackLoader};
-pub use settings::{GlobalWelkinSky, Params, UNIT_CD_M2, WelkinSky, WelkinView};
+pub use settings::{DAYLIGHT, GlobalWelkinSky, Params, UNIT_CD_M2, WelkinSky, WelkinView};
 #[cfg(feature = "shadows")]
 pub use shadows::WelkinShadows;
 pub use welkin_pack;

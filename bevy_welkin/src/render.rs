@@ -173,7 +173,7 @@ pub(crate) fn prepare(
     let scale = seen.sky.unit() * camera.exposure;
     if scale > BLOWN {
         warn_once!(
-            "a camera shows the white of a sunlit cloud as {scale}: give it an exposure for daylight, such as Exposure::SUNLIGHT"
+            "a camera shows the white of a sunlit cloud as {scale}: give it an exposure for daylight, such as bevy_welkin::DAYLIGHT"
         );
     }
     let mut params = seen.sky.params.0;

@@ -1,5 +1,6 @@
 //! What can be set: the sky, and which cameras see it.
 
+use bevy::camera::Exposure;
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 use welkin_runtime::{Axes, SkyParams};
@@ -7,8 +8,11 @@ use welkin_runtime::{Axes, SkyParams};
 use crate::pack::WelkinPack;
 
 /// Luminance in cd/m2 that a radiance of 1 stands for by default: that of the default pack with the sun at 60 degrees, see
-/// [`SkyLight::unit_cd_m2`](welkin_runtime::SkyLight::unit_cd_m2). Under the exposure of sunlight, EV100 15, a radiance of 1 is 0.81 in the target.
+/// [`SkyLight::unit_cd_m2`](welkin_runtime::SkyLight::unit_cd_m2).
 pub const UNIT_CD_M2: f32 = 32_000.0;
+
+/// The exposure for a day, EV100 13.3: a radiance of 1 is 2.6 in the target, which is the runtime's own default. Bevy's example of an atmosphere has 13.
+pub const DAYLIGHT: Exposure = Exposure { ev100: 13.3 };
 
 /// What the sky of one camera shall look like: a component of that camera, in place of [`GlobalWelkinSky`].
 #[derive(Component, Clone, Copy, Debug, PartialEq, Reflect, Serialize, Deserialize)]
@@ -97,8 +101,7 @@ impl From<SkyParams> for Params {
 
 /// A camera that sees the sky of a pack. Its projection is a perspective; an orthographic one sees none.
 ///
-/// Give it an [`Exposure`](bevy::camera::Exposure) for daylight, `Exposure::SUNLIGHT` say: that of Bevy's cameras by default is a room's, in which every sky is
-/// white.
+/// Give it an [`Exposure`] for daylight, such as [`DAYLIGHT`]: that of Bevy's cameras by default is a room's, in which every sky is white.
 ///
 /// With [`AtmosphereSettings`](bevy::pbr::AtmosphereSettings) on the same camera, Bevy draws the clear sky, and this one clouds, stars and moon over it.
 #[derive(Component, Clone, Debug, Reflect)]

@@ -2,15 +2,14 @@
 
 use std::f32::consts::PI;
 
-use bevy::camera::Exposure;
 use bevy::light::light_consts::lux::RAW_SUNLIGHT;
-use bevy::pbr::AtmosphereSettings;
 use bevy::pbr::decal::clustered::clustered_decals_are_usable;
+use bevy::pbr::{AtmosphereSettings, DistanceFog};
 use bevy::prelude::*;
 use bevy_welkin::welkin_runtime::{Method, SkyLight};
 use bevy_welkin::{
-    UNIT_CD_M2, WelkinAir, WelkinEnvironment, WelkinLight, WelkinPack, WelkinShadows, WelkinSky,
-    WelkinView, WelkinViewLight,
+    DAYLIGHT, UNIT_CD_M2, WelkinAir, WelkinEnvironment, WelkinLight, WelkinPack, WelkinShadows,
+    WelkinSky, WelkinView, WelkinViewLight,
 };
 
 use crate::stage::{Stage, pack};
@@ -95,7 +94,7 @@ fn a_white_plane_has_the_radiance_that_the_sky_says() {
     sky.params.time = 0.42;
     sky.params.cover = 0.3;
     stage.set(sky);
-    let scale = UNIT_CD_M2 * Exposure::SUNLIGHT.exposure();
+    let scale = UNIT_CD_M2 * DAYLIGHT.exposure();
     let expected = light(&sky);
     let up = bevy_welkin::welkin_runtime::glam::Vec3::Y;
 
@@ -140,44 +139,48 @@ fn what_is_far_goes_over_into_the_horizon() {
     let mut stage = Stage::new("assets");
     let pack = stage.pack();
     plane(&mut stage, 4e5);
-    let far = Transform::from_xyz(0.0, 300.0, 0.0).looking_to(Vec3::NEG_Z, Vec3::Y);
-    let (camera, image) = stage.camera(&pack, far);
-    let mut lens = PerspectiveProjection::default();
-    lens.far = 2e5;
-    stage
-        .app
-        .world_mut()
-        .entity_mut(camera)
-        .insert(Projection::from(lens));
+    const HEIGHT_M: f32 = 300.0;
+    let (camera, image) = stage.camera(&pack, Transform::default());
+    let lens = PerspectiveProjection {
+        far: 2e5,
+        ..default()
+    };
+    let mut seen = stage.app.world_mut().entity_mut(camera);
+    seen.insert(Projection::from(lens));
     stage
         .app
         .world_mut()
         .spawn((DirectionalLight::default(), WelkinLight));
-    let mut sky = WelkinSky::default();
-    sky.params.cover = 0.0;
-    sky.params.time = 0.5;
-    stage.set(sky);
-    // Ground some 37 km away, and the radiance of the air before it.
-    let shown = |stage: &mut Stage| stage.shoot(&image).about(0.5, 0.5 + 5.5 / 144.0);
-    let clear = shown(&mut stage);
-    stage.app.world_mut().entity_mut(camera).insert(WelkinAir);
-    let hazed = shown(&mut stage);
-    let scale = UNIT_CD_M2 * Exposure::SUNLIGHT.exposure();
-    let air = light(&sky).air;
-    // Nine rows, of which the middle looks down by 5.5 pixels of 45 / 144 degrees.
-    let distance_m = 300.0 / (5.5_f32 * 45.0 / 144.0).to_radians().tan();
-    let [eye, place] = [Vec3::Y * 300.0, Vec3::NEG_Z * distance_m].map(|v| v.to_array().into());
-    let radiance = (clear / scale).to_array().into();
-    let expected = bevy_vec3(air.between(radiance, eye, place)) * scale;
-    assert!(
-        (clear - expected).abs().max_element() > 0.1 * clear.max_element(),
-        "far enough: {clear} {expected}"
-    );
-    // The fog's glow and its one extinction are near those of the air, see WelkinAir; nine rows reach from 6 to 60 km.
-    assert!(
-        (hazed - expected).abs().max_element() < 0.12 * expected.max_element(),
-        "{hazed} {expected}, clear {clear}"
-    );
+    let scale = UNIT_CD_M2 * DAYLIGHT.exposure();
+    // At noon, and at dusk below the sun and away from it.
+    for (time, ahead) in [(0.5, Vec3::NEG_Z), (0.735, Vec3::NEG_X), (0.735, Vec3::X)] {
+        let mut sky = WelkinSky::default();
+        sky.params.cover = 0.0;
+        sky.params.time = time;
+        stage.set(sky);
+        let transform = Transform::from_xyz(0.0, HEIGHT_M, 0.0).looking_to(ahead, Vec3::Y);
+        let shown = |stage: &mut Stage| stage.shoot(&image).about(0.5, 0.5 + 8.5 / 144.0);
+        let mut seen = stage.app.world_mut().entity_mut(camera);
+        seen.insert(transform).remove::<(WelkinAir, DistanceFog)>();
+        let clear = shown(&mut stage);
+        stage.app.world_mut().entity_mut(camera).insert(WelkinAir);
+        let hazed = shown(&mut stage);
+        // Nine rows: the middle one looks down by so many pixels of 45 / 144 degrees.
+        let distance_m = HEIGHT_M / (8.5_f32 * 45.0 / 144.0).to_radians().tan();
+        let [eye, place] = [Vec3::Y * HEIGHT_M, ahead * distance_m].map(|v| v.to_array().into());
+        let radiance = (clear / scale).to_array().into();
+        let expected = bevy_vec3(light(&sky).air.between(radiance, eye, place)) * scale;
+        let difference = (clear - expected).abs().max_element();
+        assert!(
+            difference > 0.1 * clear.max_element(),
+            "{time} {ahead}: {clear} {expected}"
+        );
+        let apart = (hazed - expected).abs().max_element();
+        assert!(
+            apart < 0.05 * expected.max_element(),
+            "{time} {ahead}: {hazed} {expected}"
+        );
+    }
 }
 
 const EXTENT_M: f32 = 4000.0;
@@ -215,7 +218,7 @@ fn clouds_throw_shadows_on_materials() {
     // The shadows as the runtime has them for a viewer at this place.
     let map = crate::views::shadows(&stage, &sky, above.translation);
     let light = light(&sky);
-    let scale = UNIT_CD_M2 * Exposure::SUNLIGHT.exposure();
+    let scale = UNIT_CD_M2 * DAYLIGHT.exposure();
     let clear = light.sun.clear_irradiance * light.sun.direction.y / PI * scale;
     let clear = luminance(bevy_vec3(clear));
     let metres_a_pixel = 2000.0 / shown.size.y as f32;

@@ -20,18 +20,17 @@ use crate::stage::{Picture, Stage};
 /// Of the golden picture: rows without gaps.
 const SIZE: UVec2 = UVec2::new(320, 180);
 
-/// The scene of examples/flying.rs at a moment, as its camera sees it.
-fn flown(sky: WelkinSky, size: UVec2, transform: Transform) -> Picture {
+/// The scene of examples/flying.rs with its camera, and what that draws into.
+fn scene(size: UVec2) -> (Stage, Entity, Handle<Image>) {
     let mut stage = Stage::new("assets");
     let pack = stage.pack();
-    stage.set(sky);
     let image = stage.target(size, TextureFormat::Rgba8UnormSrgb);
     let lens = PerspectiveProjection {
         far: 40_000.0,
         ..default()
     };
     let camera = (
-        stage.lens(&image, transform),
+        stage.lens(&image, Transform::default()),
         Projection::from(lens),
         Hdr,
         WelkinView(pack),
@@ -39,7 +38,7 @@ fn flown(sky: WelkinSky, size: UVec2, transform: Transform) -> Picture {
         WelkinAir,
     );
     let world = stage.app.world_mut();
-    world.spawn(camera).insert(Tonemapping::AcesFitted);
+    let camera = world.spawn(camera).insert(Tonemapping::AcesFitted).id();
     let cascades = CascadeShadowConfigBuilder {
         maximum_distance: 600.0,
         ..default()
@@ -50,7 +49,7 @@ fn flown(sky: WelkinSky, size: UVec2, transform: Transform) -> Picture {
     };
     world.spawn((light, cascades.build(), WelkinLight, WelkinShadows));
     world.run_system_cached(scene::spawn).expect("the scene");
-    stage.shoot(&image)
+    (stage, camera, image)
 }
 
 fn example() -> (WelkinSky, Transform) {
@@ -80,7 +79,10 @@ fn save(picture: &Picture, path: &Path) {
 #[test]
 fn the_example_looks_as_it_did() {
     let (sky, transform) = example();
-    let shown = flown(sky, SIZE, transform);
+    let (mut stage, camera, image) = scene(SIZE);
+    stage.set(sky);
+    stage.app.world_mut().entity_mut(camera).insert(transform);
+    let shown = stage.shoot(&image);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/flying.png");
     if std::env::var_os("WELKIN_BLESS").is_some() {
         save(&shown, &path);
@@ -130,8 +132,11 @@ fn looked_at() {
         sky.params.method = method;
         moments.push((method.name().to_string(), sky, towards(0.3, 0.15)));
     }
+    let (mut stage, camera, image) = scene(UVec2::new(960, 540));
     for (name, sky, transform) in moments {
-        let shown = flown(sky, UVec2::new(960, 540), transform);
+        stage.set(sky);
+        stage.app.world_mut().entity_mut(camera).insert(transform);
+        let shown = stage.shoot(&image);
         save(&shown, &folder.join(format!("{name}.png")));
     }
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use bevy::app::PluginsState;
 use bevy::asset::AssetPlugin;
-use bevy::camera::{Exposure, Hdr, RenderTarget};
+use bevy::camera::{Hdr, RenderTarget};
 use bevy::core_pipeline::tonemapping::{DebandDither, Tonemapping};
 use bevy::log::LogPlugin;
 use bevy::prelude::*;
@@ -18,7 +18,7 @@ use bevy::time::TimeUpdateStrategy;
 use bevy::window::ExitCondition;
 use bevy::winit::WinitPlugin;
 use bevy_welkin::welkin_pack::Pack;
-use bevy_welkin::{GlobalWelkinSky, WelkinPack, WelkinPlugin, WelkinSky, WelkinView};
+use bevy_welkin::{DAYLIGHT, GlobalWelkinSky, WelkinPack, WelkinPlugin, WelkinSky, WelkinView};
 
 use crate::scene;
 
@@ -135,7 +135,7 @@ impl Stage {
             RenderTarget::Image(image.clone().into()),
             Tonemapping::None,
             DebandDither::Disabled,
-            Exposure::SUNLIGHT,
+            DAYLIGHT,
             transform,
         )
     }

@@ -1,12 +1,12 @@
 //! What cameras see: the runtime's own picture, whatever the target, the samples, the viewport and its size.
 
-use bevy::camera::{Exposure, Hdr, Viewport};
+use bevy::camera::{Hdr, Viewport};
 use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::prelude::*;
 use bevy::render::render_resource::TextureFormat;
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy_welkin::welkin_runtime::{Camera as SkyCamera, Method, Sky, SkyConfig, glam, wgpu};
-use bevy_welkin::{UNIT_CD_M2, WelkinSky, WelkinView};
+use bevy_welkin::{DAYLIGHT, UNIT_CD_M2, WelkinSky, WelkinView};
 
 use crate::stage::{Picture, SIZE, Stage, pack};
 
@@ -15,9 +15,9 @@ fn upwards() -> Transform {
     Transform::from_xyz(300.0, 2.0, -100.0).looking_to(Vec3::new(0.6, 0.7, -0.5), Vec3::Y)
 }
 
-/// A radiance of 1 in a target of a camera under the exposure of sunlight.
+/// A radiance of 1 in a target of a camera.
 fn scale() -> f32 {
-    UNIT_CD_M2 * Exposure::SUNLIGHT.exposure()
+    UNIT_CD_M2 * DAYLIGHT.exposure()
 }
 
 /// The same sky by the runtime alone, on the same device, without Bevy's schedules.
