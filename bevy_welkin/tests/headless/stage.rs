@@ -52,6 +52,11 @@ struct Shot(Vec<u8>);
 impl Stage {
     /// With the folder that assets are loaded from, which is watched.
     pub fn new(assets: &str) -> Stage {
+        Stage::with(assets, |_| {})
+    }
+
+    /// The same with more plugins.
+    pub fn with(assets: &str, more: impl FnOnce(&mut App)) -> Stage {
         static ALONE: Mutex<()> = Mutex::new(());
         let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let mut app = App::new();
@@ -80,6 +85,7 @@ impl Stage {
             .disable::<LogPlugin>()
             .disable::<PipelinedRenderingPlugin>();
         app.add_plugins((plugins, WelkinPlugin));
+        more(&mut app);
         // Time stands still: a picture is of second 0.
         app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::ZERO));
         while app.plugins_state() == PluginsState::Adding {
