@@ -21,6 +21,7 @@ mod maps;
 mod motion;
 mod oktas;
 mod opacity;
+mod over;
 mod parallax;
 mod pictures;
 mod placed_stars;
