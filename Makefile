@@ -40,7 +40,7 @@ FUZZ_FLAGS := -max_len=131072 -rss_limit_mb=2048 -timeout=20
 # The other processor that bakes are compared on, under qemu.
 AARCH64 := aarch64-unknown-linux-gnu
 
-.PHONY: help sky view gallery web check test test-docs test-packages test-recipes test-node test-gpu test-window test-web recipes bench fuzz fuzz-build aarch64 aarch64-tools tools gpu-tools window-tools desktop-tools node-tools web-tools browser clean
+.PHONY: help sky view gallery web check test test-docs test-packages test-recipes test-node test-gpu test-window test-web bevy-test recipes bench fuzz fuzz-build aarch64 aarch64-tools tools gpu-tools window-tools desktop-tools node-tools web-tools browser clean
 
 help: ## Say what can be made
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
@@ -186,6 +186,11 @@ test-window: gpu-tools window-tools desktop-tools ## Test the window on a displa
 test-web: web gpu-tools browser ## Test the page: its bakes, and its pictures in headless Chromium
 	$(TEST) --no-run --test window
 	cd web && WELKIN_VIEW=$(CURDIR)/target/debug/welkin-view node --test --test-concurrency=1 test/*.test.mjs
+
+# Bevy from nothing takes a quarter of an hour, so it is no part of `make test`. Its stated least compiler is newer than the one that it needs.
+bevy-test: gpu-tools ## Test the plugin for Bevy, on any Vulkan driver: 3 minutes, and 15 to compile Bevy
+	$(CARGO) fmt --manifest-path bevy_welkin/Cargo.toml --check
+	cd bevy_welkin && $(CARGO) test --locked --ignore-rust-version --examples --tests
 
 recipes: ## Bake RECIPES random recipes and the default one with SEEDS seeds, and check them all
 	WELKIN_RECIPES=$(RECIPES) WELKIN_SEEDS=$(SEEDS) $(CARGO) test --release --locked -p welkin-baker --test recipes -- legal:: --nocapture
