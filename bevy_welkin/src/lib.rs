@@ -35,8 +35,8 @@
 //! # Axes and units
 //! Bevy's axes are the sky's: +X east, +Y up, -Z north. A unit of the world is a metre, or [`WelkinSky::metres_per_unit`] of them.
 //!
-//! A radiance of 1, about the white of a sunlit cloud at noon, stands for [`WelkinSky::unit_cd_m2`], by default [`UNIT_CD_M2`]: the sun of the default pack then
-//! gives some 80,000 lux at noon. Lights are set by the same number, so that sky and scene agree under every [`Exposure`](bevy::camera::Exposure).
+//! A radiance of 1, about the white of a sunlit cloud at noon, stands for [`WelkinSky::unit_cd_m2`], by default [`UNIT_CD_M2`]: at noon the sun of the default
+//! pack then gives 108,000 lux to what faces it. Lights are set by the same number, so that sky and scene agree under every [`Exposure`](bevy::camera::Exposure).
 //! [`DAYLIGHT`] is one for a day; Bevy's default, EV100 9.7, is for rooms.
 
 mod air;

@@ -22,7 +22,7 @@ pub struct WelkinViewLight {
 }
 
 /// A [`DirectionalLight`] that is the sun, or at night the moon: its rotation, colour and illuminance are written each frame. Shadows and all else are
-/// as you set them.
+/// as you set them. It has no parent that turns it.
 ///
 /// It follows the sky of the first camera that sees one, by [`Camera::order`]. Clouds dim it by their mean, or one by one with `WelkinShadows`.
 ///

@@ -165,6 +165,15 @@ fn a_camera_sees_what_the_runtime_draws_in_every_target() {
     let (mean, far) = stage.shoot(&image).differs(&expected);
     assert!(mean < 2e-3 && far < 2e-3, "four samples: {mean} {far}");
 
+    // The same place in a world of centimetres.
+    let mut small = sky(Method::Fbm);
+    small.metres_per_unit = 0.01;
+    let far = upwards().with_translation(100.0 * upwards().translation);
+    let mut seen = stage.app.world_mut().entity_mut(camera);
+    seen.insert((Msaa::Off, far, small));
+    let (mean, share) = stage.shoot(&image).differs(&expected);
+    assert!(mean < 2e-3 && share < 2e-3, "centimetres: {mean} {share}");
+
     // A display target gets the colour that Bevy's own shaders would write: without a curve, radiance cut off at 1.
     let shown = stage.target(SIZE, TextureFormat::Rgba8UnormSrgb);
     let lens = stage.lens(&shown, upwards());
