@@ -191,6 +191,7 @@ test-web: web gpu-tools browser ## Test the page: its bakes, and its pictures in
 bevy-test: gpu-tools ## Test the plugin for Bevy, on any Vulkan driver: 3 minutes, and 15 to compile Bevy
 	$(CARGO) fmt --manifest-path bevy_welkin/Cargo.toml --check
 	cd bevy_welkin && $(CARGO) test --locked --ignore-rust-version --examples --tests
+	cd bevy_welkin && $(CARGO) test --locked --ignore-rust-version --doc
 
 recipes: ## Bake RECIPES random recipes and the default one with SEEDS seeds, and check them all
 	WELKIN_RECIPES=$(RECIPES) WELKIN_SEEDS=$(SEEDS) $(CARGO) test --release --locked -p welkin-baker --test recipes -- legal:: --nocapture
