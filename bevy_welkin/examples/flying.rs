@@ -1,7 +1,7 @@
 //! Flies over hills under a moving sky: `cargo run --release --example flying`, or with the path of a pack's `pack.json` under `assets/` after `--`.
 //!
 //! W A S D and the mouse with its left button held: fly. Space and C: up and down. Shift: ten times as fast.
-//! T and G: the hour. Y and H: cover. 1 to 5: packed, octaves, fbm, lit with its shadows, sprites.
+//! T and G: the hour. Y and H: cover. 1 to 5: packed, octaves, fbm, lit, sprites.
 
 mod scene;
 

@@ -10,19 +10,19 @@ use bevy::render::renderer::{RenderAdapter, RenderContext, RenderDevice, RenderQ
 use bevy::render::sync_world::MainEntity;
 use bevy::render::texture::GpuImage;
 use bevy::render::{Extract, ExtractSchedule, RenderApp};
+use welkin_runtime::shadow;
 use welkin_runtime::wgpu;
-use welkin_runtime::{Method, shadow};
 
 use crate::WelkinSystems;
 use crate::light::{EachCloud, WelkinLight, WelkinViewLight, first, luminance, luminary};
 use crate::render::Skies;
 use crate::settings::bevy_vec3;
 
-/// On a [`WelkinLight`]: the clouds of [`Method::Lit`] throw shadows on Bevy's materials, in a circle about the camera whose diameter is
+/// On a [`WelkinLight`]: clouds throw shadows on Bevy's materials, in a circle about the camera whose diameter is
 /// [`SkyParams::shadow_extent_m`](welkin_runtime::SkyParams::shadow_extent_m) of its sky, 0 for none. Beyond it they repeat.
 ///
 /// They are those of the ground at height 0, thrown along the light on whatever stands there. It wants what Bevy's light textures want: binding arrays, so
-/// neither WebGL2 nor Metal. Elsewhere, and with other methods, clouds dim the light by their mean.
+/// neither WebGL2 nor Metal. Elsewhere clouds dim the light by their mean.
 #[derive(Component, Clone, Copy, Debug, Default, Reflect)]
 #[reflect(Component, Clone, Debug, Default)]
 #[require(WelkinLight)]
@@ -61,10 +61,8 @@ fn drive(
         clustered_decals_are_usable(device, adapter)
     };
     let usable = device.zip(adapter).is_some_and(|(d, a)| can(&d, &a));
-    let view = first(views.iter()).filter(|(_, view, _)| {
-        let params = view.sky.params;
-        usable && params.method == Method::Lit && params.shadow_extent_m > 0.0
-    });
+    let view =
+        first(views.iter()).filter(|(_, view, _)| usable && view.sky.params.shadow_extent_m > 0.0);
     let Some((camera, view, place)) = view else {
         commands.remove_resource::<Wanted>();
         for (entity, mut transform, _) in lights.iter_mut().filter(|(.., has)| *has) {
