@@ -11,7 +11,14 @@ fn root() -> PathBuf {
 fn pages() -> Vec<PathBuf> {
     let root = root();
     let mut folders = vec![root.clone(), root.join("docs"), root.join("docs/engines")];
-    for name in ["pack", "baker", "runtime", "controls", "viewer", "bevy_welkin"] {
+    for name in [
+        "pack",
+        "baker",
+        "runtime",
+        "controls",
+        "viewer",
+        "bevy_welkin",
+    ] {
         folders.push(root.join(name));
     }
     let files = folders.iter().flat_map(|folder| {
