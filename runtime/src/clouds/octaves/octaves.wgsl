@@ -19,19 +19,11 @@ fn octaves_alpha(thickness: f32, exponent: f32) -> f32 {
     return cloud_soften(1.0 - exp2(exponent * max(thickness, 0.0)), OCTAVE_EDGE);
 }
 
-// The low dome: its opacity, what the finer read adds to an amount, and what the map leaves of sunlight or has as a grey.
-fn octaves_low(plane: vec2f, level: f32) -> vec3f {
-    let octaves = uniforms.octaves;
-    let uv = octaves_uv(octaves.low, plane);
-    let at_level = level + octaves.low.lod_bias;
-    let cloud = octaves_map_at(uv, at_level);
-    // Where there is no cloud nothing is roughened.
-    if cloud.g <= 0.0 {
-        return vec3f(0.0);
-    }
-    let finer = octaves_map_at(uv * OCTAVE_FINER + OCTAVE_FINER_START, at_level + OCTAVE_FINER_LEVEL).r - 0.5;
-    let alpha = clamp(cloud.g + octaves.roughness * finer * cloud.g * (1.0 - cloud.g), 0.0, 1.0);
-    return vec3f(alpha, finer, cloud.a);
+// The opacity of the low dome with its edges roughened by a finer read, and what that has over its mean.
+fn octaves_rough(uv: vec2f, level: f32, opacity: f32) -> vec2f {
+    let finer = octaves_map_at(uv * OCTAVE_FINER + OCTAVE_FINER_START, level + OCTAVE_FINER_LEVEL).r - 0.5;
+    let rough = uniforms.octaves.roughness * finer * opacity * (1.0 - opacity);
+    return vec2f(clamp(opacity + rough, 0.0, 1.0), finer);
 }
 
 // Opacity of the middle dome.
@@ -54,7 +46,9 @@ fn octaves_hidden(texel: vec2f) -> f32 {
     let octaves = uniforms.octaves;
     var open = 1.0;
     if octaves.low.threshold < 1.0 {
-        open = 1.0 - octaves_low(shadow_plane(0, texel), shadow_level(0)).x;
+        let uv = octaves_uv(octaves.low, shadow_plane(0, texel));
+        let level = shadow_level(0) + octaves.low.lod_bias;
+        open = 1.0 - octaves_rough(uv, level, octaves_map_at(uv, level).g).x;
     }
     if octaves.middle.threshold < 1.0 {
         open *= 1.0 - octaves_middle(shadow_plane(1, texel), shadow_level(1));
@@ -77,13 +71,19 @@ fn octaves_layer(direction: vec3f, narrowing: f32) -> vec4f {
     var body = 0.0;
     var clear = 1.0;
     if octaves.low.threshold < 1.0 {
-        let low = octaves_low(hit.plane, level);
-        if low.x > 0.0 {
-            grey = mix(thin_grey, low.z + OCTAVE_ROUGH_GREY * low.y, low.x);
-            let passed = octaves.base_depth + max(OCTAVE_ROUGH_DEPTH * low.y - log2(max(low.z, OCTAVE_LEAST_LIGHT)), 0.0);
-            depth = mix(OCTAVE_THIN_DEPTH, passed, low.x);
-            body = low.x;
-            clear = 1.0 - low.x;
+        let uv = octaves_uv(octaves.low, hit.plane);
+        let at_level = level + octaves.low.lod_bias;
+        let cloud = octaves_map_at(uv, at_level);
+        // Where there is no cloud nothing is roughened.
+        if cloud.g > 0.0 {
+            let rough = octaves_rough(uv, at_level, cloud.g);
+            let alpha = rough.x;
+            let finer = rough.y;
+            grey = mix(thin_grey, cloud.a + OCTAVE_ROUGH_GREY * finer, alpha);
+            let passed = octaves.base_depth + max(OCTAVE_ROUGH_DEPTH * finer - log2(max(cloud.a, OCTAVE_LEAST_LIGHT)), 0.0);
+            depth = mix(OCTAVE_THIN_DEPTH, passed, alpha);
+            body = alpha;
+            clear = 1.0 - alpha;
         }
     }
     if octaves.middle.threshold < 1.0 {
