@@ -12,9 +12,13 @@
 //! - The sky comes by two facets, a little flatter and a little steeper than that mean one.
 //! - The sun comes by the facets that lean half way to it: the glitter, `E F p / (4 h^4 (D + c L))` with the density `p` of their slope, the height
 //!   `h` of their normal, and `L = D / c - 1` in the sun's direction, for what of it one facet hides from another (E. Bruneton, F. Neyret, N.
-//!   Holzschuch, "Real-time Realistic Ocean Lighting using Seamless Transitions from Geometry to BRDF", 2010, section 5).
+//!   Holzschuch, "Real-time Realistic Ocean Lighting using Seamless Transitions from Geometry to BRDF", 2010).
 //! - What is not reflected enters, and comes back as the blue of clear water.
 //! - Between the sea and the viewer is the air of [`super::ground`].
+//!
+//! # Changes
+//! Near by, single waves are seen: noise of the clouds' texture, read three times, leans the facets to and fro, and they have that much less of the
+//! slopes. A noise of the ground makes patches of stronger and weaker wind. Both by eye.
 //!
 //! Clouds are seen in it by their mean: waves smear each over so much of the sea that no shape is left. The sun's glitter goes as the sun does behind
 //! a cloud. Stars are not seen in it.
@@ -99,8 +103,8 @@ pub const SPREAD: f32 = 0.7;
 pub const LEAST_RISE: f32 = 0.01;
 /// Share that water reflects straight down.
 pub const WATER: f32 = 0.02;
-/// Share of the light that clear water gives back, red, green, blue: some 2 % of blue light, a tenth of that of red (A. Morel, S. Maritorena, "Bio-optical
-/// properties of oceanic waters: A reappraisal", 2001, figure 8, at 0.1 to 0.3 mg of chlorophyll a cubic metre).
+/// Share of the light that clear water gives back, red, green, blue: some 2 % of blue light and a tenth of that of red, about as in A. Morel, S.
+/// Maritorena, "Bio-optical properties of oceanic waters: A reappraisal", 2001; rounded.
 const BODY: Vec3 = Vec3::new(0.002, 0.009, 0.02);
 /// How soft clouds before the sun are, in deviations of slopes.
 const SOFT: f32 = 1.5;

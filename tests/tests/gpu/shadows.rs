@@ -134,7 +134,7 @@ fn a_shadow_is_what_clouds_hide_of_the_sun_there() {
                 };
                 assert!(towards.y > 0.0, "{name}: {towards}");
                 let shadows = Shadows::of(&sky);
-                for texel in [[0, 0], [128, 128], [255, 255], [17, 230]] {
+                for texel in [[0, 0], [128, 128], [17, 230]] {
                     let there = viewer(shadows.place_m(texel), towards);
                     let middle = (SEEN * SEEN / 2) as usize;
                     let alpha = film.alpha(&params, &there, seconds)[middle];
@@ -350,7 +350,7 @@ fn sprites_throw_the_shadows_that_a_viewer_finds() {
         gpu::prepare(&mut sky, &params, &viewer(Vec2::ZERO, Vec3::Y), seconds);
         let towards = sky.light(&params, seconds).sun.direction;
         let shadows = Shadows::of(&sky);
-        let texels = (0..12).flat_map(|y| (0..12).map(move |x| [8 + 21 * x, 8 + 21 * y]));
+        let texels = (0..8).flat_map(|y| (0..8).map(move |x| [9 + 34 * x, 9 + 34 * y]));
         let pairs: Vec<[f32; 2]> = texels
             .map(|texel| {
                 let there = viewer(shadows.place_m(texel), towards);
